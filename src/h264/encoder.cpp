@@ -27,8 +27,6 @@ PictureRate rate_of(const Config& config) {
   return {config.rate_numerator, config.rate_denominator};
 }
 
-std::string number_of(const Level& level) { return text(level.idc / 10, ".", level.idc % 10); }
-
 void check(const Config& config) {
   constexpr std::int64_t kMaxTerm = std::numeric_limits<std::int32_t>::max();
   require_side("width_px", config.width_px);
@@ -40,31 +38,10 @@ void check(const Config& config) {
   if (!problem.empty()) throw Error("h264: " + problem);
 }
 
-/// @throws Error if it cannot hold the stream
+/// @throws Error if none holds the stream
 const Level& level_of(const Config& config) {
   check(config);
-  const Level& lowest = *lowest_level(config.width_px, config.height_px, rate_of(config));
-  if (config.level_idc == 0) return lowest;
-  const auto asked = std::ranges::find(levels(), config.level_idc, &Level::idc);
-  if (asked == levels().end()) {
-    throw Error(text("h264: level_idc is ", config.level_idc, ", which is no level from 20 to 62"));
-  }
-  if (!can_hold(*asked, config.width_px, config.height_px, rate_of(config))) {
-    throw Error(text("h264: level_idc is ", config.level_idc, ", but ", config.width_px, "x",
-                     config.height_px, " at this rate needs level ", number_of(lowest),
-                     " or more"));
-  }
-  return *asked;
-}
-
-/// The next quantiser to try for a picture that has `size_bytes`, more than `room_bytes`. Each step
-/// takes about a ninth of the bits, so that six halve them.
-int next_qp(int qp, std::int64_t size_bytes, std::int64_t room_bytes) {
-  while (size_bytes > room_bytes && qp < kMaxQp) {
-    size_bytes -= size_bytes / 9;
-    ++qp;
-  }
-  return qp;
+  return *lowest_level(config.width_px, config.height_px, rate_of(config));
 }
 
 }  // namespace
@@ -77,8 +54,7 @@ class Encoder::Impl {
         sets_(parameter_sets(config)),
         headers_(write_parameter_sets(config, level_.idc)),
         coder_(sets_, config.width_px, config.height_px, config.qp),
-        changed_(sets_.width_mb, sets_.height_mb),
-        watch_(make_watch()) {
+        changed_(sets_.width_mb, sets_.height_mb) {
     add({0, 0, config.width_px, config.height_px});
   }
 
@@ -87,7 +63,6 @@ class Encoder::Impl {
   void restart() {
     is_begun_ = false;
     coder_.restart();
-    watch_ = make_watch();
   }
   CodedPicture encode(const Planes& source, std::span<const Rect> changed, PictureType type,
                       Bytes& unit) {
@@ -103,18 +78,10 @@ class Encoder::Impl {
       coder_.encode_p(source, changed_, unit);
     }
     changed_.clear();
-    const int qp = keep_rate(type, unit);
-    return {.type = type,
-            .qp = qp,
-            .is_within_level = watch_.take(std::ssize(unit)),
-            .coarse_macroblocks = coder_.coarse_macroblocks(),
-            .transformed_macroblocks = coder_.transformed_macroblocks()};
+    return {type, coder_.transformed_macroblocks()};
   }
 
  private:
-  RateWatch make_watch() const {
-    return {level_, sets_.width_mb * sets_.height_mb, rate_of(config_)};
-  }
   void add(const Rect& rect) {
     const auto clamp = [](std::int64_t value, int most) {
       return static_cast<int>(std::clamp<std::int64_t>(value, 0, most));
@@ -125,50 +92,12 @@ class Encoder::Impl {
     const int below = clamp(std::int64_t{rect.y_px} + rect.height_px, config_.height_px);
     changed_.add(left, above, right - left, below - above);
   }
-  /// Leaves macroblocks as coarse as they are, or quantises the picture more coarsely, until the
-  /// level's rate suffices. @returns the quantiser of what changes
-  int keep_rate(PictureType type, Bytes& unit) {
-    int qp = config_.qp;
-    const std::int64_t room_bytes = watch_.room_bytes();
-    if (std::ssize(unit) <= room_bytes) return qp;
-    const int waiting = type == PictureType::p ? coder_.waiting() : 0;
-    if (waiting > 0) {
-      const std::int64_t corrected_bytes = std::ssize(unit);
-      coder_.encode_again(qp, 0, unit);
-      const std::int64_t spare_bytes = room_bytes - std::ssize(unit);
-      if (spare_bytes >= 0) {
-        correct(waiting, corrected_bytes - std::ssize(unit), spare_bytes, unit);
-        return qp;
-      }
-    }
-    while (std::ssize(unit) > room_bytes && qp < kMaxQp) {
-      qp = next_qp(qp, std::ssize(unit), room_bytes);
-      coder_.encode_again(qp, 0, unit);
-    }
-    return qp;
-  }
-  /// Corrects as many coarse macroblocks as half of the spare bytes is likely to suffice for: the
-  /// other half is left to what changes next.
-  /// @param all_bytes  for all that wait
-  void correct(int waiting, std::int64_t all_bytes, std::int64_t spare_bytes, Bytes& unit) {
-    const std::int64_t most_bytes = std::ssize(unit) + spare_bytes;
-    const auto affordable = static_cast<int>(waiting * (spare_bytes / 2) / all_bytes);
-    int corrections = std::min(std::max(affordable, 1), waiting - 1);
-    while (corrections > 0) {
-      coder_.encode_again(config_.qp, corrections, unit);
-      if (std::ssize(unit) <= most_bytes) return;
-      corrections /= 2;
-    }
-    coder_.encode_again(config_.qp, 0, unit);
-  }
-
   const Level& level_;
   Config config_;
   ParameterSets sets_;
   Bytes headers_;
   PictureEncoder coder_;
   MacroblockSet changed_;
-  RateWatch watch_;
   bool is_begun_ = false;
 };
 

@@ -2,7 +2,7 @@
 // In: pictures in 4:2:0, and the rectangles of each that may have changed. Out: a stream of access
 // units, Constrained Baseline, in the byte stream format of annex B.
 //
-// Users of the library need this header, or h264.h from C, and mp4_writer.hpp for MP4 files. The
+// Users of the library need this header, and mp4_writer.hpp for MP4 files. The
 // library needs the standard library alone.
 #pragma once
 
@@ -30,10 +30,6 @@ struct Config {
   std::int64_t rate_denominator = 1;
   /// The quantiser, QP: 0 (nearly lossless) to 41. Above 41, decoders would disagree (8.5.12.2).
   int qp = 14;
-  /// level_idc, ten times the level's number: 20 to 62. 0: the lowest that holds the size and the
-  /// rate of the pictures. Where a level's bit rate does not suffice, pictures are quantised more
-  /// coarsely.
-  int level_idc = 0;
 };
 
 /// One plane of samples of 8 bits, row by row.
@@ -66,10 +62,6 @@ enum class PictureType : std::uint8_t {
 /// How a picture was coded.
 struct CodedPicture {
   PictureType type;
-  int qp;                       ///< the config's, or more, where the level's rate did not suffice
-  bool is_within_level;         ///< false if no quantiser of the encoder could keep the rate
-  int coarse_macroblocks;       ///< with a coarser quantiser than the config's, of this picture or
-                                ///< those before; the next ones correct as many as fit
   int transformed_macroblocks;  ///< of a P picture: with coefficients, or I_PCM
 };
 
@@ -87,7 +79,8 @@ class Encoder {
   /// Sequence and picture parameter set, with start codes: the beginning of a byte stream, or what
   /// avcC of an MP4 file is made of.
   std::span<const std::uint8_t> headers() const;
-  /// level_idc of the stream.
+  /// level_idc of the headers, ten times the level's number: the lowest that holds the size and the
+  /// rate of the pictures, whatever their bytes.
   int level_idc() const;
 
   /// Encodes the next picture. The first of a stream is an IDR picture, whatever is asked for.

@@ -166,14 +166,6 @@ class MacroblockSet {
   void add_one(int address) {
     words_[static_cast<std::size_t>(address / 64)] |= std::uint64_t{1} << address % 64;
   }
-  /// Adds those of a set for a picture of the same size.
-  void add(const MacroblockSet& other) {
-    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= other.words_[i];
-  }
-  /// Removes those of a set for a picture of the same size.
-  void remove(const MacroblockSet& other) {
-    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= ~other.words_[i];
-  }
   void clear() { words_.assign(words_.size(), 0); }
   bool contains(int address) const {
     return (words_[static_cast<std::size_t>(address / 64)] >> address % 64 & 1) != 0;

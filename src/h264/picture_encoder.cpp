@@ -19,15 +19,12 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int width_px, int heig
       width_px_(width_px),
       height_px_(height_px),
       qp_(qp),
-      slice_qp_(qp),
       coder_(qp, sets.chroma_qp_offset),
       motion_(qp),
       source_(sets.width_mb, sets.height_mb),
       before_(sets.width_mb, sets.height_mb),
       decoded_(sets.width_mb, sets.height_mb),
       changed_(sets.width_mb, sets.height_mb),
-      fresh_(sets.width_mb, sets.height_mb),
-      coarse_(sets.width_mb, sets.height_mb),
       visited_(sets.width_mb, sets.height_mb),
       states_(static_cast<std::size_t>(sets.width_mb) * sets.height_mb),
       last_idr_(sets),
@@ -44,93 +41,46 @@ void PictureEncoder::encode_idr(const Planes& source, const MacroblockSet& chang
   is_after_idr_ = true;
   frame_num_ = 0;
   motion_.begin_group();
-  code_idr(unit);
-}
-
-void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
-  begin_picture(source, changed);
-  is_after_idr_ = false;
-  fresh_ = changed_;
-  fresh_.add(coarse_);
-  frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
-  motion_.begin_picture(fresh_.count());
-  code_p(unit);
-}
-
-void PictureEncoder::encode_again(int qp, int corrections, Bytes& unit) {
-  for (const int address : coded_) {
-    decoded_.copy(address % sets_.width_mb, address / sets_.width_mb, before_);
-  }
-  set_slice_qp(qp);
-  if (input_.slice_type == SliceType::i) {
-    last_idr_.is_valid = false;
-    return code_idr(unit);
-  }
-  fresh_ = changed_;
-  int next = coarse_.next(0);
-  for (; next >= 0 && corrections > 0; next = coarse_.next(next + 1)) {
-    if (changed_.contains(next)) continue;
-    fresh_.add_one(next);
-    --corrections;
-  }
-  code_p(unit);
-}
-
-int PictureEncoder::waiting() const {
-  MacroblockSet others = coarse_;
-  others.remove(changed_);
-  return others.count();
-}
-
-int PictureEncoder::coarse_macroblocks() const {
-  MacroblockSet coarse = coarse_;
-  update(coarse);
-  return coarse.count();
-}
-
-void PictureEncoder::begin_picture(const Planes& source, const MacroblockSet& changed) {
-  commit();
-  set_slice_qp(qp_);
-  changed_.clear();
-  const int width = sets_.width_mb;
-  for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
-    if (!source_.update(address % width, address / width, source, width_px_, height_px_)) continue;
-    changed_.add_one(address);
-    last_idr_.changed.add_one(address);
-  }
-}
-
-void PictureEncoder::commit() {
-  for (const int address : coded_) {
-    before_.copy(address % sets_.width_mb, address / sets_.width_mb, decoded_);
-  }
-  update(coarse_);
-}
-
-void PictureEncoder::update(MacroblockSet& coarse) const {
-  const bool is_coarse = slice_qp_ != qp_;
-  if (input_.slice_type == SliceType::p)
-    return is_coarse ? coarse.add(fresh_) : coarse.remove(fresh_);
-  coarse.clear();
-  if (is_coarse) coarse.add(0, 0, kLumaSide * sets_.width_mb, kLumaSide * sets_.height_mb);
-}
-
-void PictureEncoder::set_slice_qp(int qp) {
-  if (qp != slice_qp_) coder_ = MacroblockCoder(qp, sets_.chroma_qp_offset);
-  slice_qp_ = qp;
-}
-
-void PictureEncoder::code_idr(Bytes& unit) {
   begin_slice(SliceType::i);
   encode_all();
   starts_.back() = bits_.bit_count();
   finish_slice(unit);
-  last_idr_.is_valid = !has_i_pcm_ && slice_qp_ == qp_;
+  last_idr_.is_valid = !has_i_pcm_;
   last_idr_.changed.clear();
   last_idr_.states = states_;
   std::swap(last_idr_.slice, bits_);
   std::swap(last_idr_.starts, starts_);
   transformed_ = 0;
+}
+
+void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
+  begin_picture(source, changed);
+  is_after_idr_ = false;
+  frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
+  motion_.begin_picture(changed_.count());
+  begin_slice(SliceType::p);
+  visited_ = changed_;
+  for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
+    if (changed_.contains(address)) {
+      add(address);
+    } else {
+      keep(address);
+    }
+  }
+  const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
+  if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
+  finish_slice(unit);
+}
+
+void PictureEncoder::begin_picture(const Planes& source, const MacroblockSet& changed) {
+  const int width = sets_.width_mb;
+  for (const int address : coded_) before_.copy(address % width, address / width, decoded_);
+  changed_.clear();
+  for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
+    if (!source_.update(address % width, address / width, source, width_px_, height_px_)) continue;
+    changed_.add_one(address);
+    last_idr_.changed.add_one(address);
+  }
 }
 
 void PictureEncoder::encode_all() {
@@ -148,21 +98,6 @@ void PictureEncoder::encode_all() {
     done = address + 1;
   }
   repeat(done, count);
-}
-
-void PictureEncoder::code_p(Bytes& unit) {
-  begin_slice(SliceType::p);
-  visited_ = fresh_;
-  for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
-    if (fresh_.contains(address)) {
-      add(address);
-    } else {
-      keep(address);
-    }
-  }
-  const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
-  if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
-  finish_slice(unit);
 }
 
 bool PictureEncoder::needs_coding(int address) const {
@@ -209,8 +144,8 @@ void PictureEncoder::begin_slice(SliceType type) {
     bits_.put_flag(false);  // ref_pic_list_modification_flag_l0
     bits_.put_flag(false);  // adaptive_ref_pic_marking_mode_flag
   }
-  bits_.put_signed(slice_qp_ - sets_.initial_qp);  // slice_qp_delta
-  bits_.put_unsigned(1);                           // disable_deblocking_filter_idc
+  bits_.put_signed(qp_ - sets_.initial_qp);  // slice_qp_delta
+  bits_.put_unsigned(1);                     // disable_deblocking_filter_idc
 }
 
 MotionVector PictureEncoder::enter(int address) {

@@ -35,17 +35,7 @@ class PictureEncoder {
   /// @param changed  macroblocks that may differ from the source before; of the first, all
   /// @param unit     is replaced by the access unit, with a start code of four bytes
   void encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit);
-  /// The next picture. It codes again what the ones before have left coarse.
   void encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit);
-  /// Encodes the last picture anew, by another quantiser. Later pictures have the first one again,
-  /// and correct what this one leaves coarse.
-  /// @param corrections  of a P picture: it codes again no more macroblocks of those waiting()
-  void encode_again(int qp, int corrections, Bytes& unit);
-  /// How many macroblocks the pictures before have left coarse and the last one does not change.
-  int waiting() const;
-  /// How many macroblocks of the last picture have a coarser quantiser than the first one.
-  int coarse_macroblocks() const;
-
   /// The next picture, which is an IDR picture, begins a stream of its own.
   void restart() { is_after_idr_ = false; }
 
@@ -66,14 +56,7 @@ class PictureEncoder {
     std::vector<std::size_t> starts;  ///< of each macroblock's bits in the slice, and its end
   };
 
-  /// Ends the last picture for good, and begins one of another source.
   void begin_picture(const Planes& source, const MacroblockSet& changed);
-  void commit();
-  /// From what was coarse before the last picture to what is after it.
-  void update(MacroblockSet& coarse) const;
-  void set_slice_qp(int qp);
-  void code_idr(Bytes& unit);
-  void code_p(Bytes& unit);
   void begin_slice(SliceType type);
   void encode_all();
   /// Whether the bits of the macroblock in the last IDR picture cannot be used: its source has
@@ -95,15 +78,12 @@ class PictureEncoder {
   int width_px_;
   int height_px_;
   int qp_;
-  int slice_qp_;  // of the last picture
   MacroblockCoder coder_;
   MotionSearch motion_;
   Picture source_;
   Picture before_;  // the decoded picture before the last
   Picture decoded_;
   MacroblockSet changed_;  // the last picture's source
-  MacroblockSet fresh_;    // what the last picture had to code, if it is a P picture
-  MacroblockSet coarse_;   // before the last picture: coded by another quantiser than qp_
   MacroblockSet visited_;  // what changes, and what is beside motion
   std::vector<MacroblockState> states_;
   std::vector<int> coded_;  // addresses of the macroblocks whose states are set

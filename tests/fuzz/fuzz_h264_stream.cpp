@@ -1,6 +1,5 @@
 // The public Encoder of H.264 on configs, pictures and rectangles that the bytes say. libavcodec
-// decodes every picture without an error and near its source; the level's limits are kept or said
-// to be broken; neither coarser rectangles nor what was before a restart change a byte; the units
+// decodes every picture without an error and near its source; neither coarser rectangles nor what was before a restart change a byte; the units
 // fit into an MP4 file.
 #include <array>
 #include <cstdint>
@@ -14,7 +13,6 @@
 #include "h264/callers_picture.hpp"
 #include "h264/deviation_bound.hpp"
 #include "h264/encoder.hpp"
-#include "h264/levels.hpp"
 #include "h264/mp4_writer.hpp"
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"
@@ -30,13 +28,10 @@ constexpr int kMostFrames = 16;
 struct Counter {
   ~Counter() {
     std::fprintf(stderr,
-                 "fuzz_h264_stream: %lld pictures were compared, %lld of them coarser than "
-                 "asked for, %lld above their level; %lld restarts\n",
-                 pictures, coarser, above_level, restarts);
+                 "fuzz_h264_stream: %lld pictures were compared; %lld restarts\n", pictures,
+                 restarts);
   }
   long long pictures = 0;
-  long long coarser = 0;
-  long long above_level = 0;
   long long restarts = 0;
 } counter;
 
@@ -69,14 +64,6 @@ Config config_of(Numbers& numbers) {
   const auto& rate = kRates[static_cast<std::size_t>(numbers.integer(0, kRates.size() - 1))];
   config.rate_numerator = rate[0];
   config.rate_denominator = rate[1];
-  std::vector<int> held = {0};
-  for (const Level& level : levels()) {
-    if (can_hold(level, config.width_px, config.height_px, rate_of(config))) {
-      held.push_back(level.idc);
-    }
-  }
-  config.level_idc =
-      held[static_cast<std::size_t>(numbers.integer(0, static_cast<int>(held.size()) - 1))];
   return config;
 }
 
@@ -106,8 +93,6 @@ class Stream {
  public:
   Stream(const Config& config, const Encoder& encoder)
       : config_(config),
-        watch_(level_of(encoder), ((config.width_px + 15) / 16) * ((config.height_px + 15) / 16),
-               rate_of(config)),
         decoder_({encoder.headers().begin(), encoder.headers().end()}),
         file_({.width_px = config.width_px,
                .height_px = config.height_px,
@@ -119,36 +104,18 @@ class Stream {
   void take(const Planes& source, const CodedPicture& coded,
             const std::vector<std::uint8_t>& unit) {
     ++counter.pictures;
-    counter.coarser += coded.qp > config_.qp ? 1 : 0;
-    counter.above_level += coded.is_within_level ? 0 : 1;
-    require(coded.qp >= config_.qp && coded.qp <= kMaxQp, "the quantiser is out of range");
-    require(coded.is_within_level || coded.qp == kMaxQp, "a coarser quantiser was not tried");
     require(unit.size() <= Encoder::max_unit_bytes(config_), "a unit is too long");
-    require(watch_.take(std::ssize(unit)) == coded.is_within_level, "the level is not kept");
     const auto shown = decoder_.decode(unit);
     require(shown.has_value(), "no picture");
-    require(coded.coarse_macroblocks > 0 || coded.qp == config_.qp,
-            "coarser than asked, but no coarse macroblocks reported");
-    if (coded.coarse_macroblocks == 0) coarsest_qp_ = config_.qp;
-    coarsest_qp_ = std::max(coarsest_qp_, coded.qp);
     const std::string problem =
-        excess(source, config_.width_px, config_.height_px, *shown, coarsest_qp_);
+        excess(source, config_.width_px, config_.height_px, *shown, config_.qp);
     require(problem.empty(), problem);
     file_.append(unit, coded.type == PictureType::idr);
   }
   void finish() { file_.finish(); }
 
  private:
-  static const Level& level_of(const Encoder& encoder) {
-    for (const Level& level : levels()) {
-      if (level.idc == encoder.level_idc()) return level;
-    }
-    std::abort();
-  }
-
   Config config_;
-  int coarsest_qp_ = config_.qp;  // of what is shown
-  RateWatch watch_;
   StrictDecoder decoder_;
   Mp4Writer file_;
 };

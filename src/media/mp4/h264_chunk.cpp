@@ -28,9 +28,7 @@ h264::Config config_of(const VideoFormat& format) {
           .height_px = format.height_px,
           .rate_numerator = rate_of(format).numerator,
           .rate_denominator = rate_of(format).denominator,
-          .qp = kQp,
-          // The highest: where a lower one does not suffice, the file says a higher one.
-          .level_idc = h264::levels().back().idc};
+          .qp = kQp};
 }
 
 /// A picture in 4:2:0 of the size of the frames.
@@ -72,7 +70,6 @@ class H264ChunkEncoder final : public ChunkEncoder {
   void begin(std::int64_t first_frame) override {
     next_frame_ = first_frame;
     transformed_ = 0;
-    coarsest_qp_ = 0;
     is_handed_over_ = false;
     encoder_.restart();
   }
@@ -85,7 +82,6 @@ class H264ChunkEncoder final : public ChunkEncoder {
                       .dts = next_frame_,
                       .key_frame = coded.type == h264::PictureType::idr});
     transformed_ += coded.transformed_macroblocks;
-    coarsest_qp_ = std::max(coarsest_qp_, coded.qp);
     changed_.clear();
     ++next_frame_;
   }
@@ -96,8 +92,8 @@ class H264ChunkEncoder final : public ChunkEncoder {
   }
   std::string method() const override {
     std::string method(kDamage);
-    if (coarsest_qp_ > kQp) method += fmt::format(" at QP up to {}", coarsest_qp_);
-    return is_handed_over_ ? fmt::format("{}, then {}", method, successor_->method()) : method;
+    if (is_handed_over_) method += ", then " + successor_->method();
+    return method;
   }
 
  private:
@@ -151,7 +147,6 @@ class H264ChunkEncoder final : public ChunkEncoder {
   std::int64_t next_frame_ = 0;
   EncodedChunk chunk_;
   std::int64_t transformed_ = 0;  // macroblocks of the chunk's P pictures
-  int coarsest_qp_ = 0;
   bool is_handed_over_ = false;  // to libavcodec's encoder
   bool is_behind_ = false;       // picture_ lacks frames that only libavcodec's encoder took
   std::unique_ptr<ChunkEncoder> successor_;
