@@ -97,13 +97,11 @@ class CollisionLog : public Timeline {
 };
 
 enum class Engine {
-  unfolded,   ///< closed form; any number of collisions at the price of one
-  events,     ///< the article's event loop in double precision, stored
-  velocities  ///< a loop over velocities alone in double precision, stored
+  unfolded,  ///< closed form; any number of collisions at the price of one
+  events     ///< the article's event loop in double precision, stored
 };
 
-/// Most collisions that Engine::events and Engine::velocities store, at 56 bytes each: seven digits
-/// of pi.
+/// Most collisions that Engine::events stores, at 56 bytes each: seven digits of pi.
 inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.

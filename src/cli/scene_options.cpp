@@ -195,8 +195,7 @@ void SceneOptions::check_output(const Script& script) const {
 void add_engine(Command& command) {
   command.add_value("--engine", "NAME",
                     "unfolded: closed form (default);\n"
-                    "events: the event loop, in double precision;\n"
-                    "velocities: a loop over velocities alone, in double precision");
+                    "events: the event loop, in double precision");
 }
 
 void note_convention(const Script& script) {

@@ -11,9 +11,7 @@ namespace piblocks::cli {
 
 std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options) {
   const auto parse_engine = [](const std::string& text) {
-    return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded},
-                                       {"events", Engine::events},
-                                       {"velocities", Engine::velocities}});
+    return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded}, {"events", Engine::events}});
   };
   return make_collision_log(system,
                             options.value("--engine", parse_engine).value_or(Engine::unfolded));

@@ -98,12 +98,11 @@ void require_last(const Integer& index, const Integer& last_at_its_time);
 std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system);
 bool is_exact(const CollisionLog& log);
 
-/// Engine::events, which advances positions to the next collision of any pair, or
-/// Engine::velocities, a VelocityLoop, in double precision.
+/// Engine::events, which advances positions to the next collision of any pair, in double precision.
 /// @throws UsageError if the collisions are more than kMaxStoredCollisions.
 /// @throws SimulationError if a number leaves its range, or the rounding of double precision more
 ///         than doubles the number of collisions.
-std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system, Engine engine);
+std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system);
 
 /// Name and version of each library of numbers that is linked, such as "MPFR 4.2.0".
 std::vector<std::string> physics_library_versions();

@@ -179,7 +179,7 @@ std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,
 
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
   require_valid(problems_of(system));
-  if (engine != Engine::unfolded) return make_stored_log(system, engine);
+  if (engine == Engine::events) return make_stored_log(system);
   if (!is_elastic(system)) return std::make_unique<InelasticLog>(system);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.

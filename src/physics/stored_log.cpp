@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/two_sum.hpp"
 #include "physics/blocks.hpp"
 #include "physics/exact_motion.hpp"
-#include "physics/velocity_loop.hpp"
 
 namespace piblocks {
 namespace {
@@ -50,9 +48,8 @@ Motion motion_of(const Simulator::Body& body) { return {body.position[0], body.v
 /// Records collisions, and stops an engine that finds many more than there are.
 class Recorder {
  public:
-  Recorder(const char* engine, const ExactMotion& motion)
-      : engine_(engine),
-        starts_in_contact_(!motion.through_corner() &&
+  explicit Recorder(const ExactMotion& motion)
+      : starts_in_contact_(!motion.through_corner() &&
                            (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0)),
         collisions_(motion.total()),
         limit_(2 * collisions_.get_ui() + 100) {}
@@ -60,11 +57,11 @@ class Recorder {
   void record(StoredCollision collision) {
     if (log_.size() == limit_) {
       throw SimulationError(fmt::format(
-          "{}: more than {} collisions in double precision; the exact count is {}; use the "
+          "event loop: more than {} collisions in double precision; the exact count is {}; use the "
           "closed form (--engine unfolded)",
-          engine_, limit_, collisions_.get_str()));
+          limit_, collisions_.get_str()));
     }
-    require_finite(collision.time, collision.blue, collision.red, engine_);
+    require_finite(collision.time, collision.blue, collision.red, "event loop");
     // Rounding must not carry a collision past time 0, nor away from it.
     if (collision.time.hi < 0 || (starts_in_contact_ && log_.empty())) collision.time = {};
     log_.push_back(collision);
@@ -72,7 +69,6 @@ class Recorder {
   StoredCollisions take() { return std::move(log_); }
 
  private:
-  const char* engine_;
   bool starts_in_contact_;  // the first collision happens exactly at time 0
   Integer collisions_;
   std::size_t limit_;
@@ -82,40 +78,13 @@ class Recorder {
 /// The article's event loop.
 StoredCollisions event_loop(const BlockSystem& system) {
   Simulator simulator({body_of(system.blue), body_of(system.red), wall_of(system)});
-  Recorder recorder("event loop", ExactMotion(system));
+  Recorder recorder{ExactMotion(system)};
   while (const auto event = simulator.step()) {
     const bool blocks = event->second == kRed;
     recorder.record({{event->time, 0},
                      blocks ? CollisionKind::blocks : CollisionKind::wall,
                      motion_of(simulator.particles()[kBlue]),
                      motion_of(simulator.particles()[kRed])});
-  }
-  return recorder.take();
-}
-
-StoredCollisions velocity_loop(const BlockSystem& system) {
-  const ExactMotion unscaled(system);
-  if (unscaled.at_rest()) return {};
-  // A power of two that makes the speed about 1: its square is then no danger.
-  const Rational unit =
-      scaled(Real(64, 1), -sqrt(Real(64, unscaled.speed_squared)).exponent()).to_rational();
-  BlockSystem scaled = system;
-  scaled.blue.velocity *= unit;
-  scaled.red.velocity *= unit;
-  const ExactMotion motion(scaled);
-  VelocityLoop<double> loop(motion, to_double);
-  const double unit_s = to_double(unit);
-  const Time turn = to_time(motion.closest_approach);
-  const double blue_offset = to_double(system.wall_face + system.blue.width / 2);
-  const double red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
-  Recorder recorder("velocity loop", motion);
-  while (loop.step()) {
-    Time time = two_sum(turn.hi, loop.tau());
-    time = two_sum(time.hi, time.lo + turn.lo);
-    recorder.record({{time.hi * unit_s, time.lo * unit_s},
-                     loop.met_blocks() ? CollisionKind::blocks : CollisionKind::wall,
-                     {blue_offset + loop.y1(), loop.u1() / unit_s},
-                     {red_offset + loop.y2(), loop.u2() / unit_s}});
   }
   return recorder.take();
 }
@@ -196,24 +165,21 @@ class StoredLog final : public CollisionLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system, Engine engine) {
-  const char* const name = engine == Engine::events ? "event" : "velocity";
+std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system) {
   if (!is_elastic(system)) {
-    throw UsageError(fmt::format(
-        "{} loop: its collisions are elastic; for blocks.restitution and wall.restitution use the "
-        "closed form (--engine unfolded)",
-        name));
+    throw UsageError(
+        "event loop: its collisions are elastic; for blocks.restitution and wall.restitution use "
+        "the closed form (--engine unfolded)");
   }
   const Integer count =
       std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
   if (count > to_integer(kMaxStoredCollisions)) {
     throw UsageError(fmt::format(
-        "{} loop: {} collisions are more than the limit of {}; use the closed form (--engine "
+        "event loop: {} collisions are more than the limit of {}; use the closed form (--engine "
         "unfolded)",
-        name, readable(count), readable(to_integer(kMaxStoredCollisions))));
+        readable(count), readable(to_integer(kMaxStoredCollisions))));
   }
-  const auto simulate = engine == Engine::events ? event_loop : velocity_loop;
-  return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));
+  return std::make_unique<StoredLog>(system, event_loop(system), event_loop(reversed(system)));
 }
 
 std::vector<std::string> physics_library_versions() {

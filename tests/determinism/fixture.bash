@@ -34,7 +34,6 @@ readonly -a outputs=(
   "log --digits 4 --format npy -o out.npy"
   "log --digits 6 --format csv -o six.csv"
   "log --digits 4 --engine events -o events.csv"
-  "log --digits 4 --engine velocities -o velocities.csv"
   "state --digits 1 --at 0,3.5,turn-1/7,turn,last+1 --bounds"
   "state --digits 20 --at 0,3.5,turn-1/7,turn,last+1 --bounds"
   "state --mass-ratio 7/3 --at 0,3.5,turn-1/7,turn,last+1 --bounds"

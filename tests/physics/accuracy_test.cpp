@@ -175,9 +175,8 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
 }
 
 TEST(Accuracy, NoBoundIsClaimedForAnEngineThatSteps) {
-  for (const Engine engine : {Engine::events, Engine::velocities}) {
-    EXPECT_FALSE(position_bounds(*make_collision_log(article_system(2), engine), 3).has_value());
-  }
+  EXPECT_FALSE(
+      position_bounds(*make_collision_log(article_system(2), Engine::events), 3).has_value());
 }
 
 TEST(Accuracy, EnergyAndMomentumAreKept) {

@@ -87,7 +87,7 @@ class Fuzzer:
                             for _ in range(r.randrange(4))]
         maker = r.randrange(5)
         if maker == 0:
-            return Scene.shipped(self.likely("equal-masses", "storyboard", "digits-2"), **keys)
+            return Scene.shipped(self.likely("equal-masses", "storyboard", "base-2"), **keys)
         if maker == 1:
             return Scene.from_toml_text(self.text(), **keys)
         if maker == 2:
@@ -132,7 +132,7 @@ class Fuzzer:
         scene.state([self.instant() for _ in range(r.randrange(4))])
         scene.log(from_=self.likely(None), to=self.likely(None), first=self.likely(None, 1),
                   last=self.likely(None), limit=self.likely(1, 100),
-                  engine=self.likely("unfolded", "velocities"))
+                  engine=self.likely("unfolded", "events"))
         assert isinstance(scene.count, int)
 
     def frames(self, scene):

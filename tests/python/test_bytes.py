@@ -128,7 +128,7 @@ def test_count_of_any_size(program):
         ["--digits", "5", "--first", "100", "--limit", "1000"],
         ["--from", "3.4", "--to", "turn"],
         ["--from", "#10", "--engine", "events"],
-        ["--digits", "2", "--from", "last", "--engine", "velocities"],
+        ["--digits", "2", "--from", "last", "--engine", "events"],
         ["--mass-ratio", "1", "--from", "100"],
     ],
 )

@@ -64,7 +64,7 @@ def test_a_log_beyond_64_bits_has_ints():
     assert (below["time"] == Scene(20).log(first=2**63 - 10, limit=20)["time"][:5]).all()
 
 
-@pytest.mark.parametrize("engine", ["unfolded", "events", "velocities"])
+@pytest.mark.parametrize("engine", ["unfolded", "events"])
 def test_engines_agree(engine):
     log = SCENE.log(engine=engine)
     assert np.allclose(log["time"], SCENE.log()["time"], rtol=1e-9)

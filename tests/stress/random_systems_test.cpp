@@ -148,19 +148,17 @@ TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
     if (std::max(count_collisions(system), count_collisions(oracle::reversed(system))) > 1'000) {
       return;
     }
-    for (const Engine engine : {Engine::events, Engine::velocities}) {
-      try {
-        const auto log = make_collision_log(system, engine);
-        for (const Integer& index : some_indices(random, log->size())) {
-          const Collision now = log->collision(index);
-          for (const double number : {now.time.hi, now.blue.position, now.blue.velocity,
-                                      now.red.position, now.red.velocity}) {
-            EXPECT_TRUE(std::isfinite(number));
-          }
+    try {
+      const auto log = make_collision_log(system, Engine::events);
+      for (const Integer& index : some_indices(random, log->size())) {
+        const Collision now = log->collision(index);
+        for (const double number : {now.time.hi, now.blue.position, now.blue.velocity,
+                                    now.red.position, now.red.velocity}) {
+          EXPECT_TRUE(std::isfinite(number));
         }
-        ++answered;
-      } catch (const std::runtime_error&) {  // of the engine, or of a width that no double holds
       }
+      ++answered;
+    } catch (const std::runtime_error&) {  // of the engine, or of a width that no double holds
     }
   });
   EXPECT_TRUE(repeated_case() != nullptr || answered > many(kCases) / 4) << answered;

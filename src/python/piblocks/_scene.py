@@ -278,7 +278,7 @@ class Scene:
         :param from_: leave out collisions before this instant. :param to: and after this one.
         :param first: start with this collision (default 1). :param last: end with this one.
         :param limit: at most so many rows; more than 100,000,000 need it.
-        :param engine: "unfolded", the closed form; "events" or "velocities", loops in doubles.
+        :param engine: "unfolded", the closed form; "events", the event loop in doubles.
         :raises UsageError: if there are no such collisions, or too many; for a storyboard.
         """
         require_str("engine", engine)
