@@ -90,8 +90,8 @@ void add_render(Command& app) {
                              "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
                              "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
                              "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
-                             "NAME.html: a page to step through time and collisions of the\n"
-                             "video; for one with the program, 'piblocks page'");
+                             "NAME.html: a page with the video, captions and frame steps;\n"
+                             "for one with the program, 'piblocks page'");
   command.add_value("--for", "WHERE",
                     "Size, rate and background that suit one of:\n" + destination_names());
   scene.add_picture();

@@ -13,7 +13,7 @@
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "render/renderings.hpp"
-#include "render/video_facts.hpp"
+#include "render/video_text.hpp"
 #include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
@@ -146,9 +146,9 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
   const auto& scene = std::get<Scene>(job.script);
   const RunLog run(scene);
   const Schedule schedule = make_schedule(scene, run.timeline());
-  const PageFacts facts(scene, run, schedule);
-  write_poster(job, facts.frames_before_reversal() - 1, files);
-  write_texts(job, describe_video(scene, facts.count()), captions(scene, run, schedule), files);
+  write_poster(job, frames_before_reversal(scene, schedule) - 1, files);
+  write_texts(job, describe_video(scene, video_count(scene, run, schedule)),
+              captions(scene, run, schedule), files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);

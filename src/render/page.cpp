@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 
 #include <cerrno>
 #include <filesystem>
@@ -17,7 +16,7 @@
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
-#include "render/video_facts.hpp"
+#include "render/video_text.hpp"
 #include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
@@ -39,30 +38,20 @@ constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <style>{style}</style>
 <main>
 <h1>{title}</h1>
-<video id="video" width="{width}" height="{height}" controls playsinline preload="auto" aria-label="{title}" aria-describedby="description" src="data:video/mp4;base64,)";
+<video id="video" width="{width}" height="{height}" data-rate="{rate}" data-frames="{frames}" controls {loop}playsinline preload="auto" aria-label="{title}" aria-describedby="description" src="data:video/mp4;base64,)";
 
-constexpr std::string_view kControls = R"("></video>
+constexpr std::string_view kFoot = R"(">
+<track kind="captions" srclang="en" label="English" src="data:text/vtt;base64,{captions}">
+</video>
 <p id="problem" role="alert"></p>
-<div id="controls" hidden>
-<input id="time-slider" type="range" min="0" step="any" autocomplete="off" aria-label="Simulation time">
-<dl class="read-outs">
-<div><dt>Collisions</dt><dd><span id="count" aria-live="polite"></span> <span id="picture"></span></dd></div>
-<div><dt>Time</dt><dd id="time" aria-live="polite"></dd></div>
-<div><dt>Frame</dt><dd id="frame"></dd></div>
-</dl>
-<div class="buttons" role="group" aria-label="Playback">
-<button id="play" type="button" aria-keyshortcuts="Space">Play</button>
-<button id="previous-collision" type="button" aria-keyshortcuts="," aria-label="Previous collision">&minus; collision</button>
-<button id="next-collision" type="button" aria-keyshortcuts="." aria-label="Next collision">+ collision</button>
-<button id="previous-frame" type="button" aria-keyshortcuts="ArrowLeft" aria-label="Previous frame">&minus; frame</button>
-<button id="next-frame" type="button" aria-keyshortcuts="ArrowRight" aria-label="Next frame">+ frame</button>
-<button id="start" type="button" aria-keyshortcuts="Home">Start</button>
-<button id="end" type="button" aria-keyshortcuts="End">End</button>
-<button id="sound" type="button" aria-keyshortcuts="m">Sound off</button>
+<div id="steps" role="group" aria-label="Frames" hidden>
+<button id="previous-frame" type="button" aria-keyshortcuts=",">&minus; frame</button>
+<button id="next-frame" type="button" aria-keyshortcuts=".">+ frame</button>
+<span id="frame"></span>
 </div>
-<p><kbd>Space</kbd> plays and pauses, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> go from frame to frame,
-<kbd>,</kbd> <kbd>.</kbd> from collision to collision, <kbd>Home</kbd> <kbd>End</kbd> to the ends.</p>
-</div>
+<p id="description">{description}</p>
+</main>
+<script>{script}</script>
 )";
 
 void check_page(const RenderJob& job) {
@@ -74,8 +63,8 @@ void check_page(const RenderJob& job) {
   const auto* const scene = std::get_if<Scene>(&job.script);
   if (scene == nullptr) {
     throw UsageError(fmt::format(
-        "page: '{}' steps through one run, and a storyboard has several; write an MP4, or a page "
-        "of a scene without [[part]]",
+        "page: the captions of '{}' count one run, and a storyboard has several; write an MP4, or "
+        "a page of a scene without [[part]]",
         job.output));
   }
   if (scene->view.background == Background::transparent) {
@@ -101,24 +90,25 @@ void add_video(const fs::path& path, OutputFile& page) {
   throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(errno)));
 }
 
-void write_page(const Scene& scene, const PageFacts& facts, const fs::path& video,
-                OutputFile& page) {
+std::string base64_text(std::string_view text) {
+  return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void write_page(const Scene& scene, const fs::path& video, std::int64_t frames, OutputFile& page) {
+  const RunLog run(scene);
+  const Schedule schedule = make_schedule(scene, run.timeline());
+  const VideoCount count = video_count(scene, run, schedule);
+  const Rational& rate = scene.view.frame_rate;
   page.write(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
-      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, facts.count()))),
-      fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px)));
+      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, count))),
+      fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px),
+      fmt::arg("rate", rate.get_num().get_str() + "/" + rate.get_den().get_str()),
+      fmt::arg("frames", frames), fmt::arg("loop", scene.pacing.loop ? "loop " : "")));
   add_video(video, page);
-  page.write(kControls);
-  page.write(fmt::format("<p id=\"description\">{}</p>\n</main>\n",
-                         escaped(describe_video(scene, facts.count()))));
-  page.write(R"(<script id="facts" type="application/json">)");
-  std::string pieces;  // collected, since they are small
-  facts.write([&](std::string_view text) {
-    pieces += text;
-    if (pieces.size() >= kPiece_bytes) page.write(std::exchange(pieces, {}));
-  });
-  page.write(pieces);
-  page.write(fmt::format("</script>\n<script>{}</script>\n", kPageScript));
+  page.write(fmt::format(kFoot, fmt::arg("captions", base64_text(captions(scene, run, schedule))),
+                         fmt::arg("description", escaped(describe_video(scene, count))),
+                         fmt::arg("script", kPageScript)));
 }
 
 }  // namespace
@@ -128,11 +118,6 @@ bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop) {
   check_page(job);
-  const auto& scene = std::get<Scene>(job.script);
-  const RunLog run(scene);
-  const Schedule schedule = make_schedule(scene, run.timeline());
-  const PageFacts facts(scene, run, schedule);
-  facts.check_range();
   const fs::path path = follow_links(job.output);
   FileSet files(path.parent_path(), path.filename(), Unfinished::Sharing::shared);
   OutputFile page(files.add(path.filename()));
@@ -140,7 +125,7 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
   video.output = files.temporary_folder() / "video.mp4";
   Rendered rendered = render_film(video, on_progress, stop);
   StepClock clock(job.profile, Step::write);
-  write_page(scene, facts, video.output, page);
+  write_page(std::get<Scene>(job.script), video.output, rendered.frame_count, page);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   page.finish();
   files.commit();

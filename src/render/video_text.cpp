@@ -1,3 +1,5 @@
+#include "render/video_text.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
@@ -7,7 +9,6 @@
 
 #include "core/text.hpp"
 #include "draw/number_text.hpp"
-#include "render/video_facts.hpp"
 #include "scene/counted_pi.hpp"
 
 namespace piblocks {
@@ -151,6 +152,19 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate) {
 }
 
 }  // namespace
+
+std::int64_t frames_before_reversal(const Scene& scene, const Schedule& schedule) {
+  const std::int64_t frames = film_frames(schedule);
+  // A loop shows its first frame and the one at which it turns back once.
+  return scene.pacing.loop ? frames / 2 + 1 : frames;
+}
+
+VideoCount video_count(const Scene& scene, const RunLog& run, const Schedule& schedule) {
+  const Timeline& log = run.timeline();
+  const std::int64_t last = frames_before_reversal(scene, schedule) - 1;
+  return {log.count_at(schedule.time_of(last)), log.size(),
+          run.blocks() != nullptr && is_endless(*run.blocks()), log.may_go_on()};
+}
 
 std::string title_of(const Scene& scene, const VideoCount& count) {
   if (std::string title = with_single_blanks(scene.show.title); !title.empty()) return title;

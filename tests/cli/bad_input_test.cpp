@@ -434,7 +434,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"scene.toml"}), "scene.toml:2: sound.on: holds for the whole film",
                  "[[part]]\nsound.on = true\n"},
         BadInput{{"render", "scene.toml", "-o", "a.html"},
-                 "page: 'a.html' steps through one run, and a storyboard has several",
+                 "page: the captions of 'a.html' count one run, and a storyboard has several",
                  kStory},
         BadInput{render({"scene.toml", "--bundle", "talk"}),
                  "bundle: captions count one run, and a storyboard has several", kStory},

@@ -14,7 +14,7 @@
 
 #include "render/film.hpp"
 #include "render/renderings.hpp"
-#include "render/video_facts.hpp"
+#include "render/video_text.hpp"
 #include "scene/schedule.hpp"
 #include "support/property.hpp"
 
@@ -117,8 +117,7 @@ void expect_in_texts(const Scene& scene, const Anchored& at) {
   film.pacing.duration_s = 4;
   const RunLog log(film);
   const Schedule schedule = make_schedule(film, log.timeline());
-  const PageFacts facts(film, log, schedule);
-  EXPECT_EQ(facts.most(), at.count) << "page";
+  EXPECT_EQ(video_count(film, log, schedule).at_end, at.count) << "alt text";
   std::string text = captions(film, log, schedule);
   std::erase(text, ',');
   const std::string last = "\n" + at.count.get_str() + " collision";

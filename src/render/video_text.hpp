@@ -1,0 +1,45 @@
+// What a video shows, in words: for its page, and for people who cannot see or hear it.
+// In: a scene, its log, its schedule. Out: a title, a description in plain English, captions.
+#pragma once
+
+#include <piblocks/exact.hpp>
+#include <piblocks/scene.hpp>
+
+#include <cstdint>
+#include <string>
+
+#include "scene/run_log.hpp"
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+
+/// Collisions that a video counts, and those of the whole run.
+struct VideoCount {
+  Integer at_end;  ///< when the video has come furthest
+  Integer total;
+  bool is_endless = false;  ///< whether `total` stands for infinitely many
+  bool may_go_on = false;   ///< whether `total` is only the count until some time
+};
+
+/// @throws UsageError as film_frames().
+VideoCount video_count(const Scene& scene, const RunLog& run, const Schedule& schedule);
+
+/// Number of frames until a loop turns back; of all frames without a loop.
+/// @throws UsageError as film_frames().
+std::int64_t frames_before_reversal(const Scene& scene, const Schedule& schedule);
+
+/// The scene's own title; without one, the masses and the count.
+std::string title_of(const Scene& scene, const VideoCount& count);
+
+/// A few sentences: who is there, how they move at first, what the counter says in the end; in
+/// which base, if it is not ten; which digits of pi it has counted, if it has counted some.
+std::string describe_video(const Scene& scene, const VideoCount& count);
+
+/// Captions give a count exactly if it stands for a second or more, or if it is the highest of the
+/// film. Between such counts a caption begins with the first frame that counts 1 collision, 10, 100
+/// and so on. It ends where the next one begins. Times are those of frames, rounded up to
+/// milliseconds. Before time 0 counts are negative, and captions say how many collisions are to go.
+/// @throws UsageError as film_frames().
+std::string captions(const Scene& scene, const RunLog& run, const Schedule& schedule);
+
+}  // namespace piblocks
