@@ -1,4 +1,4 @@
-// How near a count of digits of pi comes to a wrong digit.
+// How near a count of digits of pi comes to another digit.
 // In: a base and the places after the point. Out: exact distances, and digits that are certain.
 #pragma once
 
@@ -10,10 +10,10 @@ namespace piblocks {
 
 /// With s = base^-places and theta = arctan s, the count is ceil(pi/theta) - 1, and the first
 /// digits of pi are floor(pi/s). pi/theta is a little more than pi/s, by about pi s/3.
-class Certainty {
+class DigitMargin {
  public:
   /// @param base  kMinBase … kMaxBase
-  Certainty(int base, unsigned long places);
+  DigitMargin(int base, unsigned long places);
 
   int base() const noexcept { return base_; }
   unsigned long places() const noexcept { return places_; }
@@ -23,10 +23,8 @@ class Certainty {
   // Relative errors are below 2^-100.
   const Rational& fraction() const noexcept { return fraction_; }  ///< pi/s - whole()
   const Rational& excess() const noexcept { return excess_; }      ///< pi/theta - pi/s, > 0
-  /// whole() + 1 - pi/theta. It is 0, exactly, where there are no places: pi/theta is 4.
-  const Rational& distance_to_next() const noexcept { return distance_to_next_; }
   /// Whether the count is one more than whole().
-  bool is_wrong() const noexcept { return distance_to_next_ < 0; }
+  bool is_wrong() const noexcept { return fraction_ + excess_ > 1; }
 
   // Truncated to so many places of the base: "314.159", with separators in base 10.
   std::string scaled_pi(std::size_t digits) const;      ///< pi/s
@@ -45,7 +43,6 @@ class Certainty {
   Integer whole_;
   Rational fraction_;
   Rational excess_;
-  Rational distance_to_next_;
 };
 
 }  // namespace piblocks

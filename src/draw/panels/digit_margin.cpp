@@ -1,4 +1,4 @@
-#include "draw/panels/certainty.hpp"
+#include "draw/panels/digit_margin.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -49,7 +49,7 @@ std::string behind_point(const std::string& text) { return text.substr(text.find
 
 }  // namespace
 
-Certainty::Certainty(int base, unsigned long places)
+DigitMargin::DigitMargin(int base, unsigned long places)
     : base_(base), places_(places), scale_(power(base, places)) {
   assert(base >= kMinBase && base <= kMaxBase);
   // pi/s and pi/theta have the first two thirds of these bits in common.
@@ -60,20 +60,16 @@ Certainty::Certainty(int base, unsigned long places)
                     bits_of(scale_.get_num()) + 2);
   fraction_ = (scaled_pi - whole_).to_rational();
   excess_ = (rays - scaled_pi).to_rational();
-  if (places == 0) {
-    excess_ = 1 - fraction_;
-  } else {
-    distance_to_next_ = -(rays - Integer(whole_ + 1)).to_rational();
-  }
+  if (places == 0) excess_ = 1 - fraction_;  // pi/theta is 4
 }
 
-std::string Certainty::scaled_pi(std::size_t digits) const {
+std::string DigitMargin::scaled_pi(std::size_t digits) const {
   const Rational scale = scale_ * power_of(base_, digits);
   const auto pi = [](mpfr_prec_t bits) { return Real::pi(bits); };
   return text_of(floor_of(pi, scale, bits_of(scale.get_num()) + 2), base_, digits);
 }
 
-std::string Certainty::pi_over_theta(std::size_t digits) const {
+std::string DigitMargin::pi_over_theta(std::size_t digits) const {
   if (places_ == 0) return count_text(whole_ + 1, base_);
   // By Niven's theorem arctan s is no rational part of pi for a rational s below 1.
   const auto rays = [&](mpfr_prec_t bits) { return Real::pi(bits) / theta_of(scale_, bits); };
@@ -82,11 +78,11 @@ std::string Certainty::pi_over_theta(std::size_t digits) const {
   return text_of(floor_of(rays, scale, size), base_, digits);
 }
 
-std::string Certainty::following(std::size_t digits) const {
+std::string DigitMargin::following(std::size_t digits) const {
   return behind_point(scaled_pi(digits));
 }
 
-std::string Certainty::needed(std::size_t digits) const {
+std::string DigitMargin::needed(std::size_t digits) const {
   // One more ray is crossed if (whole + 1) theta < pi.
   const Rational rays = whole_ + 1;
   const auto least_pi = [&](mpfr_prec_t bits) { return Real(bits, rays) * theta_of(scale_, bits); };
@@ -95,7 +91,7 @@ std::string Certainty::needed(std::size_t digits) const {
       text_of(floor_of(least_pi, scale, bits_of(scale.get_num()) + 2), base_, digits));
 }
 
-std::size_t Certainty::nines() const {
+std::size_t DigitMargin::nines() const {
   const char nine = Integer(base_ - 1).get_str(base_).front();
   // What is needed is less than 2 s below the next whole number.
   const std::string digits = needed(places_ + 2);
