@@ -220,10 +220,10 @@ class MarginFigure {
     for (const Pair& marks : words_.marks()) {
       const double both = width(marks.left) + kBetween * em_ + width(marks.right);
       if (both > right_ - left_) continue;
-      const double x = std::clamp(from - width(marks.left), left_, right_ - both);
+      const double x = std::max(left_, std::min(from - width(marks.left), right_ - both));
       const double second = x + width(marks.left) + kBetween * em_;
       label(marks.left, x, baseline, palette_.text);
-      label(marks.right, std::clamp(to, second, right_ - width(marks.right)), baseline,
+      label(marks.right, std::max(second, std::min(to, right_ - width(marks.right))), baseline,
             palette_.accent);
       break;
     }

@@ -3,7 +3,7 @@
 # awk -f page.awk -f speed/tables.awk speed.csv README.md
 BEGIN {
   if (page == "README.md") allowed = "speed-short"
-  else names = "measured job encoders png stages digits size jobs duration null still features formats"
+  else names = "measured job encoders"
 }
 
 # Rows are known by number: field[row, column's name].
@@ -19,16 +19,6 @@ function print_table(name) {
   if (name == "measured") print_measured()
   else if (name == "job") print_job()
   else if (name == "encoders") print_encoders()
-  else if (name == "png") print_png()
-  else if (name == "stages") print_stages()
-  else if (name == "digits") print_series("scaling", "digits", "Digits")
-  else if (name == "size") print_series("scaling", "size", "Frame size")
-  else if (name == "jobs") print_series("scaling", "jobs", "Threads")
-  else if (name == "duration") print_series("scaling", "duration", "Simulated time, s")
-  else if (name == "null") print_series("scaling", "null", "Digits")
-  else if (name == "features") print_series("features", "features", "With")
-  else if (name == "formats") print_series("features", "formats", "Format")
-  else if (name == "still") print_still()
   else print_short()
 }
 
@@ -98,72 +88,10 @@ function print_encoders(    row) {
   }
 }
 
-function print_png(    row) {
-  print "| Program | Threads | " speed_head() " | kB a file | Time a frame, piblocks = 1 |"
-  print_rule(1, 8)
-  for (row = 1; row <= rows; ++row) {
-    if (!is(row, "png", "png")) continue
-    print "| " get(row, "name") " | " get(row, "value") " | " speed_cells(row) " | " \
-      number_text(per_frame(row, "output_MB") * 1000) " | " ratio_text(row) " |"
-  }
-}
-
-# One line a stage, two columns an output.
-function print_stages(    row, stage, stages, order, output, outputs, line, i, j) {
-  outputs = split("mp4 png null", output, " ")
-  for (row = 1; row <= rows; ++row) {
-    if (get(row, "group") != "stages") continue
-    stage = get(row, "name")
-    if (!((stage, "known") in order)) {
-      order[stage, "known"] = 1
-      order[++stages] = stage
-    }
-    cost[stage, get(row, "series")] = per_frame(row, "cpu_seconds")
-  }
-  if (!stages) {
-    print "Not measured: this version does not know `--profile`."
-    return
-  }
-  line = "| Stage |"
-  for (j = 1; j <= outputs; ++j) line = line " " output[j] ": processor time a frame | share |"
-  print line
-  print_rule(1, 2 * outputs)
-  for (i = 1; i <= stages; ++i) {
-    line = "| " order[i] " |"
-    for (j = 1; j <= outputs; ++j) line = line stage_cells(order[i], output[j])
-    print line
-  }
-}
-function stage_cells(stage, output,    total) {
-  total = cost["total", output]
-  if (!((stage, output) in cost) || total == 0) return " " dash " | " dash " |"
-  return " " time_text(cost[stage, output]) " | " \
-    sprintf("%.1f %%", 100 * cost[stage, output] / total) " |"
-}
-
-function print_series(group, series, title,    row) {
-  print "| " title " | " speed_head() " | Time a frame, first row = 1 |"
-  if (group == "scaling") print_rule(0, 7)
-  else print_rule(1, 6)
-  for (row = 1; row <= rows; ++row) {
-    if (!is(row, group, series)) continue
-    print "| " value_text(row) " | " speed_cells(row) " | " ratio_text(row) " |"
-  }
-}
 function value_text(row,    text) {
   text = get(row, "value")
   if (text ~ /^[0-9]+x[0-9]+$/) sub(/x/, "×", text)
   return text
-}
-
-function print_still(    row) {
-  print "| Digits | Time | Processor time | Memory |"
-  print_rule(0, 4)
-  for (row = 1; row <= rows; ++row) {
-    if (!is(row, "scaling", "still")) continue
-    print "| " get(row, "value") " | " time_text(get(row, "seconds")) " | " \
-      time_text(get(row, "cpu_seconds")) " | " memory_text(row) " |"
-  }
 }
 
 function print_short(    row) {
