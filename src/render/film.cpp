@@ -188,7 +188,9 @@ void FilmSegment::compare(const Scenes& scenes, Split split, const View& film, F
     scene.view.width_px = split_->cells()[i].width_px;
     scene.view.height_px = split_->cells()[i].height_px;
     if (split_->is_in_rows()) scene.view.short_side_px = std::min(film.width_px, film.height_px);
-    scene.time = {span.from, span.to, leading.time.speed};
+    scene.time.from = span.from;
+    scene.time.to = span.to;
+    scene.time.speed = leading.time.speed;
     scene.pacing = leading.pacing;
     runs_.emplace_back(std::move(scene), std::move(logs[i]), use);
   }
