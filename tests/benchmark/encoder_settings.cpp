@@ -1,6 +1,6 @@
 // What each of libx264's presets makes of the animation: speed, size and fidelity.
-// In: nothing, or the number of frames. Out: CSV on standard output; encoders.md holds the
-// table that the defaults were chosen from.
+// In: nothing, or the number of frames. Out: CSV on standard output; encoders.md says what
+// was chosen.
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The groups of measurements; README.md of this folder says what each is for.
+// The groups of measurements.
 // In: a workbench. Out: rows of the results.
 #pragma once
 
