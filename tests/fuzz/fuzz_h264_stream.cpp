@@ -1,6 +1,6 @@
 // The public Encoder of H.264 on configs, pictures and rectangles that the bytes say. libavcodec
-// decodes every picture without an error and near its source; neither coarser rectangles nor what was before a restart change a byte; the units
-// fit into an MP4 file.
+// decodes every picture without an error and near its source; neither coarser rectangles nor what
+// was before a restart change a byte; the units fit into an MP4 file.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -27,8 +27,7 @@ constexpr int kMostFrames = 16;
 /// Says at the end how many pictures there were.
 struct Counter {
   ~Counter() {
-    std::fprintf(stderr,
-                 "fuzz_h264_stream: %lld pictures were compared; %lld restarts\n", pictures,
+    std::fprintf(stderr, "fuzz_h264_stream: %lld pictures were compared; %lld restarts\n", pictures,
                  restarts);
   }
   long long pictures = 0;

@@ -147,8 +147,8 @@ class H264ChunkEncoder final : public ChunkEncoder {
   std::int64_t next_frame_ = 0;
   EncodedChunk chunk_;
   std::int64_t transformed_ = 0;  // macroblocks of the chunk's P pictures
-  bool is_handed_over_ = false;  // to libavcodec's encoder
-  bool is_behind_ = false;       // picture_ lacks frames that only libavcodec's encoder took
+  bool is_handed_over_ = false;   // to libavcodec's encoder
+  bool is_behind_ = false;        // picture_ lacks frames that only libavcodec's encoder took
   std::unique_ptr<ChunkEncoder> successor_;
 };
 
