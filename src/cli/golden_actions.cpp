@@ -188,10 +188,10 @@ void claim_diff(OverwriteCheck& check, const std::vector<References>& all,
 GoldenResult record_golden(const References& references, const OnProgress& on_progress,
                            const std::stop_token& stop) {
   const std::string& name = references.name();
-  const GoldenResult kept{"kept",
-                          0,
-                          {name + ": has references; 'piblocks golden check' compares with them, "
-                                  "'piblocks golden approve' replaces them"}};
+  GoldenResult kept{"kept",
+                    0,
+                    {name + ": has references; 'piblocks golden check' compares with them, "
+                            "'piblocks golden approve' replaces them"}};
   if (missing_files(references).empty()) return kept;
   FileSet files(references.folder(), name + ".golden");
   const std::vector<std::string> missing = missing_files(references);

@@ -15,6 +15,7 @@ namespace piblocks {
 struct VideoInput {
   VideoInput(const std::string& path, std::stop_token token)
       : stop(std::move(token)), file(open_av_input(path, &stop)) {}
+  ~VideoInput() = default;
   VideoInput(const VideoInput&) = delete;
   VideoInput& operator=(const VideoInput&) = delete;
 
