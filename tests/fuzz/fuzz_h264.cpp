@@ -64,12 +64,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check(encoder.decoded(), decoder.decode(encoded_idr(encoder, pictures.picture())));
   for (int frame = 1; frame < kMostFrames && numbers.has_more(); ++frame) {
     pictures.advance();
-    const int chance = numbers.integer(1, kOneIn);
-    Bytes unit = chance == kOneIn ? encoded_idr(encoder, pictures.picture())
-                                  : encoded_p(encoder, pictures.picture(), pictures.changed());
-    const int again = chance == 5 ? 2 : chance == 6 || chance == kOneIn ? 1 : 0;
-    for (int i = 0; i < again; ++i)
-      encoder.encode_again(numbers.integer(0, kMaxQp), numbers.integer(0, 10), unit);
+    const bool is_idr = numbers.integer(1, kOneIn) == 1;
+    const Bytes unit = is_idr ? encoded_idr(encoder, pictures.picture())
+                              : encoded_p(encoder, pictures.picture(), pictures.changed());
     check(encoder.decoded(), decoder.decode(unit));
   }
   return 0;
