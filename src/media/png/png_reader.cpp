@@ -100,10 +100,13 @@ class PngFile {
     std::strncpy(self.message_.data(), message, self.message_.size() - 1);
     png_longjmp(png, 1);
   }
-  /// libpng leaves out ancillary chunks that are damaged. Pixels depend on these two, though.
+  /// libpng leaves out ancillary chunks that are damaged. Pixels depend on these two, though. From
+  /// 1.6.48 on, it leaves out some critical ones too, whose names begin with a capital.
   static void on_warning(png_structp png, png_const_charp message) {
     const std::string_view text = message;
-    if (text.starts_with("tRNS") || text.starts_with("acTL")) on_error(png, message);
+    const bool is_critical = 'A' <= *message && *message <= 'Z';
+    const bool is_damaged = is_critical && text.ends_with(": CRC error");
+    if (is_damaged || text.starts_with("tRNS") || text.starts_with("acTL")) on_error(png, message);
   }
 
   int width() const { return int(png_get_image_width(structs_.png, structs_.info)); }
