@@ -11,7 +11,7 @@
 namespace piblocks {
 
 /// Opening a pipe would wait for a writer, perhaps for ever.
-/// @throws IoError if the path is there, but neither a file nor a folder.
+/// @throws IoError for a pipe, a socket or a device.
 inline void refuse_pipe(const std::filesystem::path& path, std::string_view operation) {
   std::error_code unknown;
   if (!std::filesystem::is_other(std::filesystem::status(path, unknown))) return;

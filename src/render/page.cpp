@@ -4,10 +4,10 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
-#include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/descriptor.hpp"

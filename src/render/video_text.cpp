@@ -111,7 +111,7 @@ class CountWords {
       : least_(*std::ranges::min_element(shown)), most_(*std::ranges::max_element(shown)) {
     const Timeline& log = run.timeline();
     if (most_ != log.size()) return;
-    is_endless_ = run.blocks() != nullptr && is_endless(*run.blocks());
+    is_endless_ = is_endless(log);
     if (log.may_go_on() || is_endless_) return;
     ending_ = ", after which there are no more";
     const PiWords pi = pi_words(scene, most_);
@@ -162,8 +162,7 @@ std::int64_t frames_before_reversal(const Scene& scene, const Schedule& schedule
 VideoCount video_count(const Scene& scene, const RunLog& run, const Schedule& schedule) {
   const Timeline& log = run.timeline();
   const std::int64_t last = frames_before_reversal(scene, schedule) - 1;
-  return {log.count_at(schedule.time_of(last)), log.size(),
-          run.blocks() != nullptr && is_endless(*run.blocks()), log.may_go_on()};
+  return {log.count_at(schedule.time_of(last)), log.size(), is_endless(log), log.may_go_on()};
 }
 
 std::string title_of(const Scene& scene, const VideoCount& count) {

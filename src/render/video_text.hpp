@@ -35,10 +35,10 @@ std::string title_of(const Scene& scene, const VideoCount& count);
 /// which base, if it is not ten; which digits of pi it has counted, if it has counted some.
 std::string describe_video(const Scene& scene, const VideoCount& count);
 
-/// Captions give a count exactly if it stands for a second or more, or if it is the highest of the
-/// film. Between such counts a caption begins with the first frame that counts 1 collision, 10, 100
-/// and so on. It ends where the next one begins. Times are those of frames, rounded up to
-/// milliseconds. Before time 0 counts are negative, and captions say how many collisions are to go.
+/// WebVTT. A caption gives the exact count if that stays for a second or more, or is the film's
+/// highest. Other captions say "100 collisions or more", from the first frame that counts 1, 10,
+/// 100 and so on. A caption ends where the next one begins. Times are those of frames, rounded up
+/// to milliseconds. Before time 0 captions give the number of collisions until time 0.
 /// @throws UsageError as film_frames().
 std::string captions(const Scene& scene, const RunLog& run, const Schedule& schedule);
 

@@ -120,9 +120,9 @@ class GifReaderTest : public testing::Test {
 MadeImage random_image(Random& random, bool is_whole) {
   MadeImage image;
   if (!is_whole) {
-    image.x = static_cast<int>(random.integer(0, kSide - 1));
-    image.y = static_cast<int>(random.integer(0, kSide - 1));
-    image.width = static_cast<int>(random.integer(1, kSide));  // perhaps beyond the screen
+    image.x = static_cast<int>(random.integer(0, kSide + 2));  // perhaps beyond the screen
+    image.y = static_cast<int>(random.integer(0, kSide + 2));
+    image.width = static_cast<int>(random.integer(1, kSide));
     image.height = static_cast<int>(random.integer(1, kSide));
   }
   image.disposal = static_cast<int>(random.integer(0, 3));

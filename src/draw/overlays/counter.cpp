@@ -62,7 +62,7 @@ class Counter {
         base_(context.scene.show.base),
         last_(context.timeline.size()),
         may_go_on_(context.timeline.may_go_on()),
-        is_endless_(context.blocks != nullptr && is_endless(*context.blocks)),
+        is_endless_(is_endless(context.timeline)),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
         count_widths_(context.fonts.of(Face::digits),

@@ -33,7 +33,7 @@ class DigitMargin {
   std::string following(std::size_t digits) const;
   /// The next digits of the least pi with which the count would be more than whole().
   std::string needed(std::size_t digits) const;
-  /// How many of needed() are the base's last digit, from the first on.
+  /// With how many digits base - 1 (nines in base 10) needed() begins.
   std::size_t nines() const;
 
  private:

@@ -8,6 +8,9 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "media/libav/av.hpp"
@@ -87,40 +90,33 @@ class GifReader final : public FrameReader {
   void show(const GraphicsControlBlock& control) {
     const GifImageDesc& image = file_->Image;
     check_size(image.Width, image.Height);
-    const Image picture = read_picture(image, control.TransparentColor);
     const auto inside = [](int size, int at, int room) {
       return static_cast<std::uint32_t>(std::clamp(room - at, 0, size));
     };
     const FrameControl place{.width = inside(image.Width, image.Left, file_->SWidth),
                              .height = inside(image.Height, image.Top, file_->SHeight),
-                             .x = static_cast<std::uint32_t>(image.Left),
-                             .y = static_cast<std::uint32_t>(image.Top),
+                             .x = static_cast<std::uint32_t>(std::min(image.Left, file_->SWidth)),
+                             .y = static_cast<std::uint32_t>(std::min(image.Top, file_->SHeight)),
                              .disposal = disposal_of(control),
                              .is_blended = true};
-    shown_ = &screen_->show(place, cut(picture, place));
+    shown_ = &screen_->show(place, read_picture(image, place, control.TransparentColor));
   }
   static Disposal disposal_of(const GraphicsControlBlock& control) {
     if (control.DisposalMode == DISPOSE_BACKGROUND) return Disposal::background;
     return control.DisposalMode == DISPOSE_PREVIOUS ? Disposal::previous : Disposal::none;
   }
-  /// The part of a picture that is on the screen.
-  static Image cut(const Image& picture, const FrameControl& place) {
-    Image part{int(place.width), int(place.height), {}};
-    for (std::uint32_t y = 0; y < place.height; ++y) {
-      const auto row = picture.words.begin() + std::ptrdiff_t(y) * picture.width_px;
-      part.words.insert(part.words.end(), row, row + place.width);
-    }
-    return part;
-  }
-  Image read_picture(const GifImageDesc& image, int transparent) {
+  /// The part of the image that is on the screen.
+  Image read_picture(const GifImageDesc& image, const FrameControl& place, int transparent) {
     const ColorMapObject* const map = image.ColorMap != nullptr ? image.ColorMap : file_->SColorMap;
-    Image picture{image.Width, image.Height, {}};
-    picture.words.resize(std::size_t(image.Width) * std::size_t(image.Height));
+    Image picture{int(place.width), int(place.height), {}};
+    picture.words.resize(std::size_t{place.width} * place.height);
     std::vector<GifPixelType> line(std::size_t(image.Width));
     for (const auto& [first, step] : passes(image.Interlace)) {
       for (int y = first; y < image.Height; y += step) {
         check(DGifGetLine(file_.get(), line.data(), image.Width));
-        std::ranges::transform(line, picture.words.begin() + std::ptrdiff_t(y) * image.Width,
+        if (y >= picture.height_px) continue;
+        std::ranges::transform(std::span(line).first(place.width),
+                               picture.words.begin() + std::ptrdiff_t(y) * picture.width_px,
                                [&](int index) { return color_of(map, index, transparent); });
       }
     }

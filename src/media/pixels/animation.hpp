@@ -18,7 +18,7 @@ enum class Disposal {
   previous     ///< its area becomes what it was
 };
 
-/// Where a frame goes on the screen, all of it, and what becomes of it.
+/// The place of a frame, which lies wholly on the screen, and what happens to it afterwards.
 struct FrameControl {
   std::uint32_t width, height, x, y;
   Disposal disposal;

@@ -7,6 +7,7 @@
 namespace piblocks {
 namespace {
 
+/// Mirrored from top to bottom, as libavcodec says it of JPEG.
 constexpr std::array<const char*, 8> kTurns = {"",
                                                "mirrored and turned clockwise by 180 degrees",
                                                "turned clockwise by 180 degrees",
