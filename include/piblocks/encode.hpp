@@ -16,7 +16,7 @@ struct EncoderSettings {
   /// Constant rate factor, 1 (best) … 51; for WebM whole, 0 … 63.
   std::optional<double> crf = {};
   std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
-  /// One of encoder_names(). "damage" is the one that encodes only what changes.
+  /// One of encoder_names(). "builtin" is our own, the one that encodes only what changes.
   std::optional<std::string> encoder = {};
 };
 

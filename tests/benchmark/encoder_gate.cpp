@@ -99,7 +99,7 @@ int main() {
   fmt::print("date,commit,cpu,compiler,noise,share,encoder,ms_a_frame,kB_a_frame\n");
   for (const int noise : {0, 8, 64}) {
     for (const double share : {0.01, 0.02, 0.05, 0.1, 0.2, 1.0}) {
-      for (const char* encoder : {"damage", "libx264"}) piblocks::measure(noise, share, encoder);
+      for (const char* encoder : {"builtin", "libx264"}) piblocks::measure(noise, share, encoder);
     }
   }
 }

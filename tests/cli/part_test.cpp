@@ -79,7 +79,7 @@ TEST_F(PartTest, AProfileNamesTheEncoderOfEachChunk) {
   const auto profile = [this](const Arguments& arguments) {
     return piblocks(kRenderPart + arguments + Arguments{"--profile", "--quiet"}).err;
   };
-  EXPECT_NE(profile({}).find("by damage\n"), std::string::npos) << profile({});
+  EXPECT_NE(profile({}).find("by builtin\n"), std::string::npos) << profile({});
   EXPECT_EQ(profile({"--encoder", "libx264"}).find("chunks"), std::string::npos);
 }
 

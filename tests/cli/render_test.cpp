@@ -160,10 +160,10 @@ TEST_F(RenderTest, EncoderOptionsReachTheEncoder) {
   EXPECT_GT(contents("best.mp4").size(), contents("worst.mp4").size());
   output_of(two + Arguments{"--preset", "ultrafast", "--encoder", "libx264", "-o", "fast.mp4"});
   EXPECT_NE(contents("fast.mp4"), contents("best.mp4"));
-  output_of(two + Arguments{"--encoder", "damage", "-o", "damage.mp4"});
+  output_of(two + Arguments{"--encoder", "builtin", "-o", "builtin.mp4"});
   output_of(two + Arguments{"-o", "default.mp4"});
-  EXPECT_EQ(contents("damage.mp4"), contents("default.mp4"));
-  EXPECT_NE(contents("damage.mp4"), contents("fast.mp4"));
+  EXPECT_EQ(contents("builtin.mp4"), contents("default.mp4"));
+  EXPECT_NE(contents("builtin.mp4"), contents("fast.mp4"));
   output_of(two + Arguments{"--smallest", "-o", "smallest.mp4"});
   EXPECT_NE(contents("smallest.mp4").find("x264 - core"), std::string::npos);
 }

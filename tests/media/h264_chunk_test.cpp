@@ -32,7 +32,7 @@ using testing_support::TemporaryFolder;
 
 const VideoFormat kFormat = {.width_px = 640, .height_px = 360, .frame_rate = 30};
 constexpr std::int64_t kFramesPerChunk = 30;
-const EncoderSettings kDamage = {.encoder = "damage"};
+const EncoderSettings kBuiltin = {.encoder = "builtin"};
 const EncoderSettings kLibx264 = {.encoder = "libx264"};
 constexpr int kLargestError = 10;
 
@@ -76,11 +76,11 @@ int largest_error(const Pixels& drawn, const h264::ShownPicture& shown) {
   return largest;
 }
 
-class DamageChunkTest : public testing::Test {
+class BuiltinChunkTest : public testing::Test {
  protected:
   void SetUp() override {
     if (encoder_names(EncoderKind::h264).empty() ||
-        encoder_names(EncoderKind::h264).front() != "damage") {
+        encoder_names(EncoderKind::h264).front() != "builtin") {
       GTEST_SKIP() << "the headers are libx264's";
     }
   }
@@ -103,14 +103,14 @@ class DamageChunkTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(DamageChunkTest, IsWhatAnMp4GetsUnlessToldOtherwise) {
+TEST_F(BuiltinChunkTest, IsWhatAnMp4GetsUnlessToldOtherwise) {
   const EncodedChunk chunk = first_chunk({}, article_frames(kFormat));
-  EXPECT_EQ(chunk, first_chunk(kDamage, article_frames(kFormat)));
+  EXPECT_EQ(chunk, first_chunk(kBuiltin, article_frames(kFormat)));
   EXPECT_NE(chunk, first_chunk(kLibx264, article_frames(kFormat)));
   EXPECT_NE(output({}).signature, output(kLibx264).signature);
 }
 
-TEST_F(DamageChunkTest, BeginsWithItsOnlyKeyFrame) {
+TEST_F(BuiltinChunkTest, BeginsWithItsOnlyKeyFrame) {
   for (const std::int64_t first : {std::int64_t{0}, 5 * kFramesPerChunk}) {
     const auto made =
         encode_chunk(output({}), first, first + kFramesPerChunk, article_frames(kFormat));
@@ -123,31 +123,31 @@ TEST_F(DamageChunkTest, BeginsWithItsOnlyKeyFrame) {
   }
 }
 
-TEST_F(DamageChunkTest, LeavesTheRestOfAChunkThatIsAllNewToTheStreamsEncoder) {
+TEST_F(BuiltinChunkTest, LeavesTheRestOfAChunkThatIsAllNewToTheStreamsEncoder) {
   const EncodedChunk chunk = first_chunk({}, random_frames(kFormat));
   ASSERT_EQ(chunk.size(), std::size_t{kFramesPerChunk});
   // 920 macroblocks in each of three pictures are more than 64 in each of thirty.
   EXPECT_EQ(key_frames(chunk), (std::vector<std::int64_t>{0, 4}));
   EXPECT_TRUE(std::ranges::equal(chunk, first_chunk(kLibx264, random_frames(kFormat)), {},
                                  &Packet::pts, &Packet::pts));
-  const EncodedChunk forced = first_chunk(kDamage, random_frames(kFormat));
+  const EncodedChunk forced = first_chunk(kBuiltin, random_frames(kFormat));
   EXPECT_EQ(forced.size(), std::size_t{kFramesPerChunk});
   EXPECT_EQ(key_frames(forced), (std::vector<std::int64_t>{0}));
 }
 
-TEST_F(DamageChunkTest, CodesTheNextChunkItselfAgain) {
+TEST_F(BuiltinChunkTest, CodesTheNextChunkItselfAgain) {
   const auto made = output({});
   const auto encoder = made.make_encoder();
   const PaintFrame paint = random_then_article(kFormat);
   EXPECT_EQ(key_frames(encode_chunk(made, *encoder, 0, kFramesPerChunk, paint)).size(), 2u);
   const EncodedChunk next =
       encode_chunk(made, *encoder, kFramesPerChunk, 2 * kFramesPerChunk, paint);
-  EXPECT_EQ(next, encode_chunk(output(kDamage), kFramesPerChunk, 2 * kFramesPerChunk, paint));
+  EXPECT_EQ(next, encode_chunk(output(kBuiltin), kFramesPerChunk, 2 * kFramesPerChunk, paint));
 }
 
-TEST_F(DamageChunkTest, DependsOnTheFramesOfTheChunkAlone) {
+TEST_F(BuiltinChunkTest, DependsOnTheFramesOfTheChunkAlone) {
   for (const PaintFrame& paint : {article_frames(kFormat), random_then_article(kFormat)}) {
-    for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
+    for (const EncoderSettings& settings : {EncoderSettings{}, kBuiltin}) {
       const auto made = output(settings);
       const auto encoder = made.make_encoder();
       for (const std::int64_t first : {std::int64_t{0}, kFramesPerChunk}) {
@@ -160,18 +160,18 @@ TEST_F(DamageChunkTest, DependsOnTheFramesOfTheChunkAlone) {
   }
 }
 
-TEST_F(DamageChunkTest, IsTheSameFromManyThreads) {
+TEST_F(BuiltinChunkTest, IsTheSameFromManyThreads) {
   constexpr std::int64_t kFrames = 3 * kFramesPerChunk + 7;
   write_frames(folder_ / "a.mp4", kFormat, {}, kFrames, random_then_article(kFormat));
   write_frames_by_threads(folder_ / "b.mp4", kFormat, {}, kFrames, random_then_article(kFormat));
   EXPECT_TRUE(file_contents(folder_ / "a.mp4") == file_contents(folder_ / "b.mp4"));
 }
 
-TEST_F(DamageChunkTest, ShowsEveryFrameOfBothEncoders) {
+TEST_F(BuiltinChunkTest, ShowsEveryFrameOfBothEncoders) {
   constexpr std::int64_t kFrames = 2 * kFramesPerChunk + 1;  // the last chunk has one frame
   const h264::StreamHeaders headers(
       h264::Config{.width_px = kFormat.width_px, .height_px = kFormat.height_px});
-  for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
+  for (const EncoderSettings& settings : {EncoderSettings{}, kBuiltin}) {
     const auto made = output(settings);
     const auto encoder = made.make_encoder();
     const PaintFrame paint = random_then_article(kFormat);
@@ -189,10 +189,10 @@ TEST_F(DamageChunkTest, ShowsEveryFrameOfBothEncoders) {
   }
 }
 
-TEST_F(DamageChunkTest, MakesFilesWithTheExactNumberOfFrames) {
+TEST_F(BuiltinChunkTest, MakesFilesWithTheExactNumberOfFrames) {
   constexpr std::int64_t kFrames = 40;
   const VideoFormat format = {.width_px = 322, .height_px = 180, .frame_rate = 30};
-  for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
+  for (const EncoderSettings& settings : {EncoderSettings{}, kBuiltin}) {
     for (const PaintFrame& paint : {article_frames(format), random_frames(format)}) {
       write_frames(folder_ / "x.mp4", format, settings, kFrames, paint);
       const DecodedVideo video = decode_video(folder_ / "x.mp4");
@@ -253,9 +253,9 @@ std::ostream& operator<<(std::ostream& out, const Size& size) {
   return out << size.width_px << 'x' << size.height_px;
 }
 
-class DamageChunkSizeTest : public DamageChunkTest, public testing::WithParamInterface<Size> {};
+class BuiltinChunkSizeTest : public BuiltinChunkTest, public testing::WithParamInterface<Size> {};
 
-TEST_P(DamageChunkSizeTest, ShowsWhatWasDrawnFromDamageAlone) {
+TEST_P(BuiltinChunkSizeTest, ShowsWhatWasDrawnFromTheRegionAlone) {
   constexpr int kChunks = 3;
   const VideoFormat format = {
       .width_px = GetParam().width_px, .height_px = GetParam().height_px, .frame_rate = 30};
@@ -263,7 +263,7 @@ TEST_P(DamageChunkSizeTest, ShowsWhatWasDrawnFromDamageAlone) {
       h264::Config{.width_px = format.width_px, .height_px = format.height_px});
   Random random(11);
   SCOPED_TRACE(random.trace());
-  for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
+  for (const EncoderSettings& settings : {EncoderSettings{}, kBuiltin}) {
     const auto made = output(settings, format);
     const auto encoder = made.make_encoder();
     h264::StrictDecoder decoder(headers.bytes);
@@ -290,12 +290,12 @@ TEST_P(DamageChunkSizeTest, ShowsWhatWasDrawnFromDamageAlone) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, DamageChunkSizeTest,
+INSTANTIATE_TEST_SUITE_P(Sizes, BuiltinChunkSizeTest,
                          testing::Values(Size{2, 2}, Size{4, 2}, Size{16, 16}, Size{18, 30},
                                          Size{322, 180}, Size{334, 178}));
 
 // The margin up to whole macroblocks is not shown, and should cost nothing.
-TEST_F(DamageChunkTest, SpendsNothingOnWhatLiesBeyondThePicture) {
+TEST_F(BuiltinChunkTest, SpendsNothingOnWhatLiesBeyondThePicture) {
   const auto grey_frames = [&](int width_px, int height_px) {
     const VideoFormat format = {.width_px = width_px, .height_px = height_px, .frame_rate = 30};
     const auto paint = [&](std::int64_t number) {
@@ -303,7 +303,7 @@ TEST_F(DamageChunkTest, SpendsNothingOnWhatLiesBeyondThePicture) {
       std::ranges::fill(pixels.words, 0xff000000 | 0x101010 * static_cast<std::uint32_t>(number));
       return pixels;
     };
-    return encode_chunk(output(kDamage, format), 0, 10, paint);
+    return encode_chunk(output(kBuiltin, format), 0, 10, paint);
   };
   const EncodedChunk whole = grey_frames(48, 32);
   EXPECT_EQ(grey_frames(34, 18), whole);
@@ -311,7 +311,7 @@ TEST_F(DamageChunkTest, SpendsNothingOnWhatLiesBeyondThePicture) {
   EXPECT_EQ(grey_frames(48, 30), whole);
 }
 
-TEST_F(DamageChunkTest, LeavesStreamsOfChosenQualityToTheStreamsEncoder) {
+TEST_F(BuiltinChunkTest, LeavesStreamsOfChosenQualityToTheStreamsEncoder) {
   const auto chunk = [&](const EncoderSettings& settings) {
     return first_chunk(settings, article_frames(kFormat));
   };
@@ -320,17 +320,18 @@ TEST_F(DamageChunkTest, LeavesStreamsOfChosenQualityToTheStreamsEncoder) {
   EXPECT_EQ(chunk({.preset = "medium"}), chunk({.preset = "medium", .encoder = "libx264"}));
 }
 
-TEST_F(DamageChunkTest, NamesWhatIsWrong) {
+TEST_F(BuiltinChunkTest, NamesWhatIsWrong) {
   const auto has = [](const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
   };
-  EXPECT_EQ(problem(kDamage), "none");
-  EXPECT_TRUE(has(problem({.encoder = "damages"}), "'damages'; use one of: damage, libx264"));
-  EXPECT_TRUE(has(problem({.crf = 52, .encoder = "damage"}), "'damage' has no crf"));
-  EXPECT_TRUE(has(problem({.preset = "fastest", .encoder = "damage"}), "'damage' has no presets"));
+  EXPECT_EQ(problem(kBuiltin), "none");
+  EXPECT_TRUE(has(problem({.encoder = "damage"}), "'damage'; use one of: builtin, libx264"));
+  EXPECT_TRUE(has(problem({.crf = 52, .encoder = "builtin"}), "'builtin' has no crf"));
+  EXPECT_TRUE(
+      has(problem({.preset = "fastest", .encoder = "builtin"}), "'builtin' has no presets"));
   const VideoFormat odd = {.width_px = 641, .height_px = 360, .frame_rate = 30};
-  EXPECT_NE(problem(kDamage, odd), "none");
-  EXPECT_EQ(problem(kDamage, odd), problem(kLibx264, odd));
+  EXPECT_NE(problem(kBuiltin, odd), "none");
+  EXPECT_EQ(problem(kBuiltin, odd), problem(kLibx264, odd));
 }
 
 }  // namespace

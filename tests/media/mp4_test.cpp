@@ -113,13 +113,13 @@ TEST_F(Mp4Test, SaysAHigherLevelWhereThePicturesNeedIt) {
     const std::uint8_t* const headers = file->streams[0]->codecpar->extradata;
     return std::pair(int(headers[3]), int(headers[8 + 3]));  // in avcC, in its parameter set
   };
-  const EncoderSettings damage = {.encoder = "damage"};
-  const auto raised = levels_of("noise.mp4", damage, random_frames(format));
+  const EncoderSettings builtin = {.encoder = "builtin"};
+  const auto raised = levels_of("noise.mp4", builtin, random_frames(format));
   EXPECT_GT(raised.first, 20);
   EXPECT_EQ(raised.first, raised.second);
-  EXPECT_EQ(levels_of("noise.mov", damage, random_frames(format)), raised);
+  EXPECT_EQ(levels_of("noise.mov", builtin, random_frames(format)), raised);
   for (const char* name : {"article.mp4", "article.mov"}) {
-    EXPECT_EQ(levels_of(name, damage, article_frames(format)), std::pair(20, 20)) << name;
+    EXPECT_EQ(levels_of(name, builtin, article_frames(format)), std::pair(20, 20)) << name;
   }
 }
 
@@ -230,12 +230,12 @@ TEST_F(Mp4Test, NamesTheSettingThatIsWrong) {
   EXPECT_TRUE(has(problem({.crf = std::nan("")}), "crf nan"));
   EXPECT_TRUE(has(problem({.preset = "fastest"}), "'fastest'; use one of: ultrafast"));
   EXPECT_TRUE(has(problem({.preset = ""}), "''"));
-  EXPECT_TRUE(has(problem({.encoder = "libx263"}), "'libx263'; use one of: damage, libx264"));
+  EXPECT_TRUE(has(problem({.encoder = "libx263"}), "'libx263'; use one of: builtin, libx264"));
   for (const std::string other : {"libx264rgb", "ffv1", "mpeg4", "libsvtav1"}) {
-    EXPECT_TRUE(has(problem({.encoder = other}), "'; use one of: damage, libx264")) << other;
+    EXPECT_TRUE(has(problem({.encoder = other}), "'; use one of: builtin, libx264")) << other;
   }
-  EXPECT_TRUE(has(problem({.crf = 20, .encoder = "damage"}), "'damage' has no crf"));
-  EXPECT_TRUE(has(problem({.preset = "fast", .encoder = "damage"}), "'damage' has no presets"));
+  EXPECT_TRUE(has(problem({.crf = 20, .encoder = "builtin"}), "'builtin' has no crf"));
+  EXPECT_TRUE(has(problem({.preset = "fast", .encoder = "builtin"}), "'builtin' has no presets"));
   EXPECT_TRUE(has(problem({.crf = 99, .preset = "x"}),
                   "crf 99 is out of range; use 1 (best) "
                   "to 51\nvideo: encoder 'libx264' has no"));

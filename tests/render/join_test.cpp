@@ -151,12 +151,12 @@ TEST_F(JoinTest, RefusesAnotherKindOfOutput) {
   EXPECT_EQ(
       problem(parts, "a.mp4"),
       "join: the parts are of y4m, and '" + path("a.mp4") +
-          "' is mp4 by damage here; choose a name of the kind that they were rendered for, on a "
+          "' is mp4 by builtin here; choose a name of the kind that they were rendered for, on a "
           "machine with the same libraries");
   EXPECT_NE(problem(parts, "a.framehash").find("' is framehash by murmur3 here"),
             std::string::npos);
   const auto videos = rendered_parts(2, {scene(), path("a.mp4")});
-  EXPECT_TRUE(problem(videos, "a.y4m").starts_with("join: the parts are of mp4 by damage, and "));
+  EXPECT_TRUE(problem(videos, "a.y4m").starts_with("join: the parts are of mp4 by builtin, and "));
 }
 
 TEST_F(JoinTest, RefusesToReplaceAPart) {

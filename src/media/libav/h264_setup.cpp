@@ -127,7 +127,7 @@ void set_up(AVCodecContext& context, const AVCodec& codec, const EncoderSettings
 
 std::vector<std::string> usable_h264_encoders() {
   std::vector<std::string> names = software_encoders();
-  names.emplace(names.begin(), kDamage);
+  names.emplace(names.begin(), kBuiltin);
   return names;
 }
 

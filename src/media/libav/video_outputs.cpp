@@ -70,7 +70,7 @@ Output encoded_output(const OutputRequest& request, const Container& container,
 /// H.264 in MP4 or MOV: our own, unless something is asked for that only libavcodec's encoders do.
 Output h264_output(const OutputRequest& request, const Container& container) {
   check_duration_of_frame(request.format.frame_rate);
-  if (!is_damage(request.settings)) {
+  if (!is_builtin(request.settings)) {
     EncoderSetup setup = h264_setup(request.format, request.settings, container.encoders);
     Output output = encoded_output(request, container, std::move(setup));
     output.notes = h264_notes(request.format);

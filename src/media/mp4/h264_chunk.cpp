@@ -91,7 +91,7 @@ class H264ChunkEncoder final : public ChunkEncoder {
     return chunk;
   }
   std::string method() const override {
-    std::string method(kDamage);
+    std::string method(kBuiltin);
     if (is_handed_over_) method += ", then " + successor_->method();
     return method;
   }
@@ -154,8 +154,8 @@ class H264ChunkEncoder final : public ChunkEncoder {
 
 }  // namespace
 
-bool is_damage(const EncoderSettings& settings) {
-  if (settings.encoder) return settings.encoder == kDamage;
+bool is_builtin(const EncoderSettings& settings) {
+  if (settings.encoder) return settings.encoder == kBuiltin;
   return !settings.crf && !settings.preset;
 }
 
@@ -188,19 +188,19 @@ H264Stream::H264Stream(const VideoFormat& video_format, const EncoderSettings& s
     : format(video_format),
       config(config_of(video_format)),
       frames_per_chunk(frames_in_a_second(video_format.frame_rate)),
-      may_hand_over(settings.encoder != kDamage) {
+      may_hand_over(settings.encoder != kBuiltin) {
   Problems problems;
   problems.add(odd_size_problem(format, "H.264 in 4:2:0"));
   problems.add(h264_level_problem(format));
-  if (settings.crf) problems.add(no_crf(kDamage));
-  if (settings.preset) problems.add(no_preset(kDamage));
+  if (settings.crf) problems.add(no_crf(kBuiltin));
+  if (settings.preset) problems.add(no_preset(kBuiltin));
   problems.check();
   level_idc = h264::lowest_level(format.width_px, format.height_px, rate_of(format))->idc;
   headers = write_parameter_sets(config, level_idc);
 }
 
 std::string H264Stream::signature() const {
-  return fmt::format("{}, {:02x}", kDamage, fmt::join(headers, ""));
+  return fmt::format("{}, {:02x}", kBuiltin, fmt::join(headers, ""));
 }
 
 std::unique_ptr<ChunkEncoder> h264_chunk_encoder(const H264Stream& stream,

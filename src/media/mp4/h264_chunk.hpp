@@ -19,10 +19,10 @@
 namespace piblocks {
 
 /// Our own encoder, as the command line calls it.
-inline constexpr std::string_view kDamage = "damage";
+inline constexpr std::string_view kBuiltin = "builtin";
 
 /// Whether our own encoder makes the pictures: if nothing else is asked for.
-bool is_damage(const EncoderSettings& settings);
+bool is_builtin(const EncoderSettings& settings);
 
 /// Why H.264 cannot hold pictures of this size and rate; empty if it can.
 std::string h264_level_problem(const VideoFormat& format);

@@ -78,7 +78,7 @@ void check_duration_of_frame(const Rational& frame_rate) {
 }
 
 Output mp4_output(const OutputRequest& request) {
-  if (request.sound || !is_damage(request.settings)) return av_module().mp4_output(request);
+  if (request.sound || !is_builtin(request.settings)) return av_module().mp4_output(request);
   check_duration_of_frame(request.format.frame_rate);
   const auto stream = std::make_shared<const H264Stream>(request.format, request.settings);
   return {

@@ -63,7 +63,7 @@ void measure_size(const Workbench& bench, const Size& size) {
   };
   const std::string version = bench.program_version();
   hold_contest(bench,
-               {contender("piblocks by damage", version, render(video, {"--encoder", "damage"})),
+               {contender("piblocks builtin", version, render(video, {"--encoder", "builtin"})),
                 contender("piblocks by libx264", version, render(video, {"--encoder", "libx264"})),
                 contender("ffmpeg from y4m", "ffmpeg", ffmpeg_ultrafast(drawn, video))},
                bench.rounds);
