@@ -103,7 +103,7 @@ class BitWriter {
   int waiting_count_ = 0;      // less than 32
 };
 
-/// A header of a stream is broken, or the slices of this encoder do not fit it.
+/// A header of a stream is broken, or is not ours.
 struct HeaderError : Error {
   using Error::Error;
 };

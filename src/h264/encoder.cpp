@@ -51,10 +51,9 @@ class Encoder::Impl {
   explicit Impl(const Config& config)
       : level_(level_of(config)),
         config_(config),
-        sets_(parameter_sets(config)),
         headers_(write_parameter_sets(config, level_.idc)),
-        coder_(sets_, config.width_px, config.height_px, config.qp),
-        changed_(sets_.width_mb, sets_.height_mb) {
+        coder_(config),
+        changed_(macroblocks_along(config.width_px), macroblocks_along(config.height_px)) {
     add({0, 0, config.width_px, config.height_px});
   }
 
@@ -94,7 +93,6 @@ class Encoder::Impl {
   }
   const Level& level_;
   Config config_;
-  ParameterSets sets_;
   Bytes headers_;
   PictureEncoder coder_;
   MacroblockSet changed_;
@@ -103,8 +101,6 @@ class Encoder::Impl {
 
 Encoder::Encoder(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
 Encoder::~Encoder() = default;
-Encoder::Encoder(Encoder&&) noexcept = default;
-Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 
 std::span<const std::uint8_t> Encoder::headers() const { return impl_->headers(); }
 int Encoder::level_idc() const { return impl_->level().idc; }
@@ -113,16 +109,6 @@ void Encoder::restart() { impl_->restart(); }
 CodedPicture Encoder::encode(const Planes& source, std::span<const Rect> changed, PictureType type,
                              std::vector<std::uint8_t>& unit) {
   return impl_->encode(source, changed, type, unit);
-}
-
-std::size_t Encoder::max_unit_bytes(const Config& config) {
-  constexpr std::size_t kHeader_bytes = 64;
-  constexpr std::size_t kMacroblock_bytes = 400;  // 3200 bits, by A.3.1
-  level_of(config);                               // refuses what no encoder takes
-  const ParameterSets sets = parameter_sets(config);
-  const std::size_t macroblocks = static_cast<std::size_t>(sets.width_mb) * sets.height_mb;
-  // In the worst case every third byte is an emulation_prevention_three_byte.
-  return (kHeader_bytes + macroblocks * kMacroblock_bytes) * 3 / 2;
 }
 
 }  // namespace piblocks::h264

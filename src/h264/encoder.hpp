@@ -71,8 +71,6 @@ class Encoder {
   /// @throws Error naming the field and its limits, before anything large is allocated.
   explicit Encoder(const Config& config);
   ~Encoder();
-  Encoder(Encoder&& other) noexcept;
-  Encoder& operator=(Encoder&& other) noexcept;
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
@@ -96,10 +94,6 @@ class Encoder {
   /// Makes the stream begin anew: the next picture is an IDR picture, whose bytes depend on its
   /// samples alone. Nothing has to be passed whole again.
   void restart();
-
-  /// The most bytes that headers or an access unit of such a stream can have.
-  /// @throws Error as the constructor does
-  static std::size_t max_unit_bytes(const Config& config);
 
  private:
   class Impl;

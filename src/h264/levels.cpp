@@ -55,10 +55,6 @@ bool holds(const Level& level, const Size& size, PictureRate rate) {
 
 std::span<const Level> levels() { return kLevels; }
 
-bool can_hold(const Level& level, int width_px, int height_px, PictureRate rate) {
-  return holds(level, size_of(width_px, height_px), rate);
-}
-
 const Level* lowest_level(int width_px, int height_px, PictureRate rate) {
   const Size size = size_of(width_px, height_px);
   for (const Level& level : kLevels) {

@@ -37,9 +37,6 @@ inline constexpr int kMaxSide_mb = 1055;
 /// highest, that they exceed.
 std::string level_problem(int width_px, int height_px, PictureRate rate);
 
-/// Whether the level allows such pictures at such a rate, whatever their bytes.
-bool can_hold(const Level& level, int width_px, int height_px, PictureRate rate);
-
 /// The lowest of levels() that holds such pictures at such a rate, whatever their bytes; null if
 /// none does.
 const Level* lowest_level(int width_px, int height_px, PictureRate rate);

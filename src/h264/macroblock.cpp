@@ -79,11 +79,11 @@ int error_of(const Samples& a, const Samples& b) { return luma_error(a, b) + chr
 
 }  // namespace
 
-MacroblockCoder::MacroblockCoder(int qp, int chroma_qp_offset)
+MacroblockCoder::MacroblockCoder(int qp)
     : lambda_(lambda_of(qp)),
       tolerance_(1 + (1 << qp / 6) / 4),  // what the quantiser leaves of a flat difference
-      intra_{{qp, Rounding::intra}, {chroma_qp(qp, chroma_qp_offset), Rounding::intra}},
-      inter_{{qp, Rounding::inter}, {chroma_qp(qp, chroma_qp_offset), Rounding::inter}} {}
+      intra_{{qp, Rounding::intra}, {chroma_qp(qp), Rounding::intra}},
+      inter_{{qp, Rounding::inter}, {chroma_qp(qp), Rounding::inter}} {}
 
 CodedMacroblock MacroblockCoder::code(const MacroblockInput& input) const {
   // A type is tried if so many bits of it would cost less than the best type so far: about half of

@@ -62,8 +62,7 @@ struct CodedMacroblock {
 class MacroblockCoder {
  public:
   /// @param qp  QPY, the same for all macroblocks, from 0 to 51.
-  /// @param chroma_qp_offset  chroma_qp_index_offset
-  MacroblockCoder(int qp, int chroma_qp_offset);
+  explicit MacroblockCoder(int qp);
 
   CodedMacroblock code(const MacroblockInput& input) const;
   /// Codes a macroblock of a P slice as what was there before, though P_Skip would move it.

@@ -5,8 +5,6 @@
 #include <span>
 #include <string_view>
 
-#include "h264/mp4_boxes.hpp"
-
 namespace piblocks::h264 {
 namespace {
 

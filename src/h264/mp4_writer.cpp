@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "h264/encoder.hpp"
-#include "h264/mp4_boxes.hpp"
 #include "h264/mp4_index.hpp"
 #include "h264/nal_unit.hpp"
 
@@ -227,8 +226,6 @@ class Mp4Writer::Impl {
 Mp4Writer::Mp4Writer(const Mp4Track& track, WriteAt write_at)
     : impl_(std::make_unique<Impl>(track, std::move(write_at))) {}
 Mp4Writer::~Mp4Writer() = default;
-Mp4Writer::Mp4Writer(Mp4Writer&&) noexcept = default;
-Mp4Writer& Mp4Writer::operator=(Mp4Writer&&) noexcept = default;
 void Mp4Writer::append(Bytes unit, bool is_idr) { impl_->append(unit, is_idr); }
 void Mp4Writer::finish() { impl_->finish(); }
 

@@ -38,8 +38,6 @@ class Mp4Writer {
   /// @throws Error naming what is out of range, and its limits.
   Mp4Writer(const Mp4Track& track, WriteAt write_at);
   ~Mp4Writer();
-  Mp4Writer(Mp4Writer&& other) noexcept;
-  Mp4Writer& operator=(Mp4Writer&& other) noexcept;
   Mp4Writer(const Mp4Writer&) = delete;
   Mp4Writer& operator=(const Mp4Writer&) = delete;
 

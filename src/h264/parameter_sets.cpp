@@ -6,23 +6,15 @@
 #include <vector>
 
 #include "h264/bit_stream.hpp"
-#include "h264/levels.hpp"
 #include "h264/nal_unit.hpp"
 #include "h264/picture.hpp"
-#include "h264/text.hpp"
 
 namespace piblocks::h264 {
 namespace {
 
-void refuse_if(bool is_other, std::string_view property) {
-  if (is_other) throw HeaderError(text("h264: cannot continue a stream with ", property));
-}
-
-template <typename Number>
-Number in_range(Number value, Number least, Number most, std::string_view name) {
-  if (least <= value && value <= most) return value;
-  throw HeaderError(
-      text("h264: ", name, " of a header is ", value, ", not in [", least, ", ", most, "]"));
+/// Ends the comparison of headers. may_follow() catches it.
+void require(bool is_alike) {
+  if (!is_alike) throw HeaderError("h264: slices of these headers are coded otherwise");
 }
 
 /// The profiles with more fields in their sequence parameter sets, 7.3.2.1.1.
@@ -32,76 +24,49 @@ bool is_high_profile(std::uint32_t profile) {
   return std::ranges::find(kProfiles, profile) != kProfiles.end();
 }
 
-void read_high_profile_fields(BitReader& bits) {
-  refuse_if(bits.get_unsigned() != 1, "chroma other than 4:2:0");
-  for (int i = 0; i < 2; ++i) refuse_if(bits.get_unsigned() != 0, "samples of more than 8 bits");
-  refuse_if(bits.get_flag(), "lossless macroblocks");  // qpprime_y_zero_transform_bypass_flag
-  refuse_if(bits.get_flag(), "scaling matrices");
-}
-
-/// @param size  in samples; offsets are in pairs of samples.
-void read_cropping(BitReader& bits, std::uint32_t size, std::string_view name) {
-  const std::uint64_t before = bits.get_unsigned();
-  const std::uint64_t after = bits.get_unsigned();
-  if (2 * (before + after) >= size) {
-    throw HeaderError(text("h264: nothing is left of a picture's ", name, " ", size));
-  }
-}
-
-/// seq_parameter_set_data(), 7.3.2.1.1, up to the VUI, which is its end.
-/// @return seq_parameter_set_id
-std::uint32_t read_sequence(BitReader bits, ParameterSets& sets) {
+/// seq_parameter_set_data(), 7.3.2.1.1, up to what only says how pictures are shown.
+void compare_sequence(BitReader bits, const Config& config) {
   const std::uint32_t profile = bits.get(8);
-  bits.get(16);  // constraint flags, level
-  const std::uint32_t id = in_range(bits.get_unsigned(), 0U, 31U, "seq_parameter_set_id");
-  if (is_high_profile(profile)) read_high_profile_fields(bits);
-  sets.log2_max_frame_num =
-      static_cast<int>(4 + in_range(bits.get_unsigned(), 0U, 12U, "log2_max_frame_num_minus4"));
-  const std::uint32_t order_type = bits.get_unsigned();
-  refuse_if(order_type != 2,
-            text("picture order type ", order_type, " (as for B-frames and fields)"));
-  refuse_if(bits.get_unsigned() == 0, "no reference pictures");
-  bits.get_flag();  // gaps_in_frame_num_value_allowed_flag
-  const auto side_mb = [&](std::string_view name) {
-    constexpr auto kLast = static_cast<std::uint32_t>(kMaxSide_mb - 1);
-    return 1 + static_cast<int>(in_range(bits.get_unsigned(), 0U, kLast, name));
-  };
-  sets.width_mb = side_mb("pic_width_in_mbs_minus1");
-  sets.height_mb = side_mb("pic_height_in_map_units_minus1");
-  refuse_if(!bits.get_flag(), "fields");
-  bits.get_flag();  // direct_8x8_inference_flag
-  if (bits.get_flag()) {
-    read_cropping(bits, 16U * sets.width_mb, "width");
-    read_cropping(bits, 16U * sets.height_mb, "height");
+  bits.get(16);                       // constraint flags, level
+  require(bits.get_unsigned() == 0);  // seq_parameter_set_id
+  if (is_high_profile(profile)) {
+    require(bits.get_unsigned() == 1);  // chroma_format_idc: 4:2:0
+    require(bits.get_unsigned() == 0);  // bit_depth_luma_minus8
+    require(bits.get_unsigned() == 0);  // bit_depth_chroma_minus8
+    require(!bits.get_flag());          // qpprime_y_zero_transform_bypass_flag
+    require(!bits.get_flag());          // seq_scaling_matrix_present_flag
   }
-  bits.get_flag();  // vui_parameters_present_flag
-  return id;
+  require(bits.get_unsigned() == kFrameNum_bits - 4);
+  require(bits.get_unsigned() == 2);  // pic_order_cnt_type
+  require(bits.get_unsigned() == 1);  // max_num_ref_frames
+  bits.get_flag();                    // gaps_in_frame_num_value_allowed_flag
+  require(bits.get_unsigned() == static_cast<unsigned>(macroblocks_along(config.width_px) - 1));
+  require(bits.get_unsigned() == static_cast<unsigned>(macroblocks_along(config.height_px) - 1));
+  require(bits.get_flag());  // frame_mbs_only_flag
 }
 
 /// pic_parameter_set_rbsp(), 7.3.2.2.
-void read_picture(BitReader bits, std::uint32_t sequence_id, ParameterSets& sets) {
-  sets.picture_parameter_set_id = in_range(bits.get_unsigned(), 0U, 255U, "pic_parameter_set_id");
-  in_range(bits.get_unsigned(), sequence_id, sequence_id, "seq_parameter_set_id");
-  refuse_if(bits.get_flag(), "CABAC");
-  bits.get_flag();  // bottom_field_pic_order_in_frame_present_flag: of no use to type 2
-  refuse_if(bits.get_unsigned() != 0, "slice groups");
-  sets.overrides_reference_count =
-      in_range(bits.get_unsigned(), 0U, 31U, "num_ref_idx_l0_default_active_minus1") != 0;
-  in_range(bits.get_unsigned(), 0U, 31U, "num_ref_idx_l1_default_active_minus1");
-  refuse_if(bits.get_flag(), "weighted prediction");
-  bits.get(2);  // weighted_bipred_idc: of B slices
-  sets.initial_qp = 26 + in_range(bits.get_signed(), -26, 25, "pic_init_qp_minus26");
-  in_range(bits.get_signed(), -26, 25, "pic_init_qs_minus26");
-  sets.chroma_qp_offset = in_range(bits.get_signed(), -12, 12, "chroma_qp_index_offset");
-  refuse_if(!bits.get_flag(), "deblocking that slices cannot switch off");
-  refuse_if(bits.get_flag(), "constrained intra prediction");
-  refuse_if(bits.get_flag(), "redundant pictures");
-  if (bits.has_more_data()) {  // only in high profiles
-    refuse_if(bits.get_flag(), "8x8 transforms");
-    refuse_if(bits.get_flag(), "scaling matrices");
-    refuse_if(bits.get_signed() != sets.chroma_qp_offset, "different quantisers for Cb and Cr");
-  }
-  if (bits.has_more_data()) throw HeaderError("h264: a picture parameter set has more than it may");
+void compare_picture(BitReader bits, const Config& config) {
+  require(bits.get_unsigned() == 0);  // pic_parameter_set_id
+  require(bits.get_unsigned() == 0);  // seq_parameter_set_id
+  require(!bits.get_flag());          // entropy_coding_mode_flag: CAVLC
+  bits.get_flag();                    // bottom_field_pic_order_in_frame_present_flag
+  require(bits.get_unsigned() == 0);  // num_slice_groups_minus1
+  require(bits.get_unsigned() == 0);  // num_ref_idx_l0_default_active_minus1
+  bits.get_unsigned();                // num_ref_idx_l1_default_active_minus1
+  require(!bits.get_flag());          // weighted_pred_flag
+  bits.get(2);                        // weighted_bipred_idc: of B slices
+  require(bits.get_signed() == config.qp - 26);
+  bits.get_signed();                // pic_init_qs_minus26
+  require(bits.get_signed() == 0);  // chroma_qp_index_offset
+  require(bits.get_flag());         // deblocking_filter_control_present_flag
+  require(!bits.get_flag());        // constrained_intra_pred_flag
+  require(!bits.get_flag());        // redundant_pic_cnt_present_flag
+  if (!bits.has_more_data()) return;
+  require(!bits.get_flag());        // transform_8x8_mode_flag
+  require(!bits.get_flag());        // pic_scaling_matrix_present_flag
+  require(bits.get_signed() == 0);  // second_chroma_qp_index_offset
+  require(!bits.has_more_data());
 }
 
 /// vui_parameters(), E.1.1
@@ -135,21 +100,22 @@ void write_usability(const Config& config, BitWriter& bits) {
 void write_sequence(const Config& config, int level_idc, BitWriter& bits) {
   constexpr unsigned kBaseline = 66;
   constexpr unsigned kConstrained = 0xC0;  // constraint_set0_flag and constraint_set1_flag
-  const ParameterSets sets = parameter_sets(config);
+  const int width_mb = macroblocks_along(config.width_px);
+  const int height_mb = macroblocks_along(config.height_px);
   bits.put(kBaseline, 8);
   bits.put(kConstrained, 8);
   bits.put(static_cast<unsigned>(level_idc), 8);
   bits.put_unsigned(0);  // seq_parameter_set_id
-  bits.put_unsigned(static_cast<unsigned>(sets.log2_max_frame_num - 4));
+  bits.put_unsigned(kFrameNum_bits - 4);
   bits.put_unsigned(2);  // pic_order_cnt_type: the order of decoding
   bits.put_unsigned(1);  // max_num_ref_frames
   bits.put_flag(false);  // gaps_in_frame_num_value_allowed_flag
-  bits.put_unsigned(static_cast<unsigned>(sets.width_mb - 1));
-  bits.put_unsigned(static_cast<unsigned>(sets.height_mb - 1));
+  bits.put_unsigned(static_cast<unsigned>(width_mb - 1));
+  bits.put_unsigned(static_cast<unsigned>(height_mb - 1));
   bits.put_flag(true);  // frame_mbs_only_flag
   bits.put_flag(true);  // direct_8x8_inference_flag
-  const int right_px = kLumaSide * sets.width_mb - config.width_px;
-  const int below_px = kLumaSide * sets.height_mb - config.height_px;
+  const int right_px = kLumaSide * width_mb - config.width_px;
+  const int below_px = kLumaSide * height_mb - config.height_px;
   bits.put_flag(right_px > 0 || below_px > 0);  // frame_cropping_flag
   if (right_px > 0 || below_px > 0) {
     bits.put_unsigned(0);
@@ -164,8 +130,7 @@ void write_sequence(const Config& config, int level_idc, BitWriter& bits) {
 
 /// pic_parameter_set_rbsp(), 7.3.2.2
 void write_picture(const Config& config, BitWriter& bits) {
-  const ParameterSets sets = parameter_sets(config);
-  bits.put_unsigned(sets.picture_parameter_set_id);
+  bits.put_unsigned(0);  // pic_parameter_set_id
   bits.put_unsigned(0);  // seq_parameter_set_id
   bits.put_flag(false);  // entropy_coding_mode_flag: CAVLC
   bits.put_flag(false);  // bottom_field_pic_order_in_frame_present_flag
@@ -174,9 +139,9 @@ void write_picture(const Config& config, BitWriter& bits) {
   bits.put_unsigned(0);  // num_ref_idx_l1_default_active_minus1
   bits.put_flag(false);  // weighted_pred_flag
   bits.put(0, 2);        // weighted_bipred_idc
-  bits.put_signed(sets.initial_qp - 26);
-  bits.put_signed(0);  // pic_init_qs_minus26
-  bits.put_signed(sets.chroma_qp_offset);
+  bits.put_signed(config.qp - 26);
+  bits.put_signed(0);    // pic_init_qs_minus26
+  bits.put_signed(0);    // chroma_qp_index_offset
   bits.put_flag(true);   // deblocking_filter_control_present_flag
   bits.put_flag(false);  // constrained_intra_pred_flag
   bits.put_flag(false);  // redundant_pic_cnt_present_flag
@@ -184,16 +149,6 @@ void write_picture(const Config& config, BitWriter& bits) {
 }
 
 }  // namespace
-
-ParameterSets parameter_sets(const Config& config) {
-  return {.width_mb = (config.width_px + kLumaSide - 1) / kLumaSide,
-          .height_mb = (config.height_px + kLumaSide - 1) / kLumaSide,
-          .log2_max_frame_num = 4,
-          .picture_parameter_set_id = 0,
-          .overrides_reference_count = false,
-          .initial_qp = config.qp,
-          .chroma_qp_offset = 0};
-}
 
 std::vector<std::uint8_t> write_parameter_sets(const Config& config, int level_idc) {
   constexpr int kImportant = 3;  // nal_ref_idc
@@ -207,18 +162,19 @@ std::vector<std::uint8_t> write_parameter_sets(const Config& config, int level_i
   return headers;
 }
 
-ParameterSets read_parameter_sets(std::span<const std::uint8_t> stream) {
+bool may_follow(std::span<const std::uint8_t> headers, const Config& config) {
   constexpr auto kSequence = static_cast<int>(UnitType::sequence_parameters);
   constexpr auto kPicture = static_cast<int>(UnitType::picture_parameters);
-  std::vector<Unit> units = read_units(stream);
+  std::vector<Unit> units = read_units(headers);
   std::erase_if(units, [](const Unit& u) { return u.type != kSequence && u.type != kPicture; });
-  if (units.size() != 2 || units[0].type != kSequence || units[1].type != kPicture) {
-    throw HeaderError("h264: a stream needs one sequence and then one picture parameter set");
+  if (units.size() != 2 || units[0].type != kSequence || units[1].type != kPicture) return false;
+  try {
+    compare_sequence(BitReader(units[0].rbsp), config);
+    compare_picture(BitReader(units[1].rbsp), config);
+  } catch (const HeaderError&) {
+    return false;
   }
-  ParameterSets sets{};
-  const std::uint32_t sequence_id = read_sequence(BitReader(units[0].rbsp), sets);
-  read_picture(BitReader(units[1].rbsp), sequence_id, sets);
-  return sets;
+  return true;
 }
 
 }  // namespace piblocks::h264

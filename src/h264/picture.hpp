@@ -47,6 +47,8 @@ inline int squared_error(const std::uint8_t* a, const std::uint8_t* b, int count
 }
 
 inline constexpr int kLumaSide = 16;
+/// Those of a side of this length, of which the last may stick out.
+constexpr int macroblocks_along(int side_px) { return (side_px + kLumaSide - 1) / kLumaSide; }
 inline constexpr int kChromaSide = 8;
 
 /// Y, Cb, Cr of a macroblock, row by row, one plane after the other.

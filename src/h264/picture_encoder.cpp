@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "h264/nal_unit.hpp"
+#include "h264/parameter_sets.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -14,24 +15,24 @@ constexpr unsigned kAllI = 7;
 
 }  // namespace
 
-PictureEncoder::PictureEncoder(const ParameterSets& sets, int width_px, int height_px, int qp)
-    : sets_(sets),
-      width_px_(width_px),
-      height_px_(height_px),
-      qp_(qp),
-      coder_(qp, sets.chroma_qp_offset),
-      motion_(qp),
-      source_(sets.width_mb, sets.height_mb),
-      before_(sets.width_mb, sets.height_mb),
-      decoded_(sets.width_mb, sets.height_mb),
-      changed_(sets.width_mb, sets.height_mb),
-      visited_(sets.width_mb, sets.height_mb),
-      states_(static_cast<std::size_t>(sets.width_mb) * sets.height_mb),
-      last_idr_(sets),
+PictureEncoder::PictureEncoder(const Config& config)
+    : width_px_(config.width_px),
+      height_px_(config.height_px),
+      width_mb_(macroblocks_along(config.width_px)),
+      height_mb_(macroblocks_along(config.height_px)),
+      coder_(config.qp),
+      motion_(config.qp),
+      source_(width_mb_, height_mb_),
+      before_(width_mb_, height_mb_),
+      decoded_(width_mb_, height_mb_),
+      changed_(width_mb_, height_mb_),
+      visited_(width_mb_, height_mb_),
+      states_(static_cast<std::size_t>(width_mb_) * height_mb_),
+      last_idr_(width_mb_, height_mb_),
       starts_(states_.size() + 1),
       has_new_result_(states_.size()) {
   last_idr_.starts = starts_;
-  assert(0 <= qp && qp <= kMaxQp);
+  assert(0 <= config.qp && config.qp <= kMaxQp);
 }
 
 void PictureEncoder::encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
@@ -56,7 +57,7 @@ void PictureEncoder::encode_idr(const Planes& source, const MacroblockSet& chang
 void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
   begin_picture(source, changed);
   is_after_idr_ = false;
-  frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
+  frame_num_ = (frame_num_ + 1) & ((1U << kFrameNum_bits) - 1);
   motion_.begin_picture(changed_.count());
   begin_slice(SliceType::p);
   visited_ = changed_;
@@ -67,13 +68,13 @@ void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed
       keep(address);
     }
   }
-  const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
+  const int skipped = width_mb_ * height_mb_ - next_address_;
   if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
   finish_slice(unit);
 }
 
 void PictureEncoder::begin_picture(const Planes& source, const MacroblockSet& changed) {
-  const int width = sets_.width_mb;
+  const int width = width_mb_;
   for (const int address : coded_) before_.copy(address % width, address / width, decoded_);
   changed_.clear();
   for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
@@ -84,7 +85,7 @@ void PictureEncoder::begin_picture(const Planes& source, const MacroblockSet& ch
 }
 
 void PictureEncoder::encode_all() {
-  const int count = sets_.width_mb * sets_.height_mb;
+  const int count = width_mb_ * height_mb_;
   if (last_idr_.is_valid) states_ = last_idr_.states;
   int done = 0;
   for (int address = 0; address < count; ++address) {
@@ -102,8 +103,8 @@ void PictureEncoder::encode_all() {
 
 bool PictureEncoder::needs_coding(int address) const {
   return !last_idr_.is_valid || last_idr_.changed.contains(address) ||
-         (address % sets_.width_mb > 0 && has_new_result_[address - 1] != 0) ||
-         (address >= sets_.width_mb && has_new_result_[address - sets_.width_mb] != 0);
+         (address % width_mb_ > 0 && has_new_result_[address - 1] != 0) ||
+         (address >= width_mb_ && has_new_result_[address - width_mb_] != 0);
 }
 
 void PictureEncoder::repeat(int begin, int end) {
@@ -131,25 +132,24 @@ void PictureEncoder::begin_slice(SliceType type) {
   // slice_header(), 7.3.3
   bits_.put_unsigned(0);  // first_mb_in_slice
   bits_.put_unsigned(type == SliceType::i ? kAllI : kAllP);
-  bits_.put_unsigned(sets_.picture_parameter_set_id);
-  bits_.put(frame_num_, sets_.log2_max_frame_num);
+  bits_.put_unsigned(0);  // pic_parameter_set_id
+  bits_.put(frame_num_, kFrameNum_bits);
   if (type == SliceType::i) {
     bits_.put_unsigned(idr_pic_id_);
     // dec_ref_pic_marking(), 7.3.3.3
     bits_.put_flag(false);  // no_output_of_prior_pics_flag
     bits_.put_flag(false);  // long_term_reference_flag
   } else {
-    bits_.put_flag(sets_.overrides_reference_count);
-    if (sets_.overrides_reference_count) bits_.put_unsigned(0);  // num_ref_idx_l0_active_minus1
+    bits_.put_flag(false);  // num_ref_idx_active_override_flag
     bits_.put_flag(false);  // ref_pic_list_modification_flag_l0
     bits_.put_flag(false);  // adaptive_ref_pic_marking_mode_flag
   }
-  bits_.put_signed(qp_ - sets_.initial_qp);  // slice_qp_delta
-  bits_.put_unsigned(1);                     // disable_deblocking_filter_idc
+  bits_.put_signed(0);    // slice_qp_delta
+  bits_.put_unsigned(1);  // disable_deblocking_filter_idc
 }
 
 MotionVector PictureEncoder::enter(int address) {
-  const int width = sets_.width_mb;
+  const int width = width_mb_;
   const int x = address % width;
   const int y = address / width;
   const auto state = [&](bool is_available, int distance) {
@@ -162,8 +162,8 @@ MotionVector PictureEncoder::enter(int address) {
 }
 
 void PictureEncoder::add(int address) {
-  const int x = address % sets_.width_mb;
-  const int y = address / sets_.width_mb;
+  const int x = address % width_mb_;
+  const int y = address / width_mb_;
   const MotionVector vector = enter(address);
   source_.load(x, y, input_.source);
   decoded_.load_borders(x, y, input_.borders);
@@ -180,15 +180,15 @@ void PictureEncoder::add(int address) {
 bool PictureEncoder::has_new_result(int address, const CodedMacroblock& coded) {
   if (!last_idr_.is_valid || last_idr_.changed.contains(address)) return true;
   // What has not changed since then has the decoded samples that it had then.
-  decoded_.load(address % sets_.width_mb, address / sets_.width_mb, input_.before);
+  decoded_.load(address % width_mb_, address / width_mb_, input_.before);
   return coded.samples.values != input_.before.values || coded.state != last_idr_.states[address];
 }
 
 void PictureEncoder::keep(int address) {
   const MotionVector vector = enter(address);
   if (vector == MotionVector{}) return;
-  const int x = address % sets_.width_mb;
-  const int y = address / sets_.width_mb;
+  const int x = address % width_mb_;
+  const int y = address / width_mb_;
   before_.load(x, y, input_.before);
   put(address, MacroblockCoder::hold(input_.before, input_.neighbours));
 }
@@ -196,8 +196,8 @@ void PictureEncoder::keep(int address) {
 void PictureEncoder::put(int address, const CodedMacroblock& coded) {
   const bool is_moved = coded.state.vector != MotionVector{};
   if (coded.type == MbType::p_skip && !is_moved) return;
-  const int x = address % sets_.width_mb;
-  const int y = address / sets_.width_mb;
+  const int x = address % width_mb_;
+  const int y = address / width_mb_;
   decoded_.store(x, y, coded.samples);
   states_[address] = coded.state;
   coded_.push_back(address);

@@ -12,7 +12,6 @@
 
 #include "h264/macroblock.hpp"
 #include "h264/motion.hpp"
-#include "h264/parameter_sets.hpp"
 #include "h264/picture.hpp"
 
 namespace piblocks::h264 {
@@ -26,9 +25,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 class PictureEncoder {
  public:
-  /// @param width_px, height_px  of the source's part that is shown
-  /// @param qp  from 0 to kMaxQp.
-  PictureEncoder(const ParameterSets& sets, int width_px, int height_px, int qp);
+  /// @param config  of size and qp; the qp is at most kMaxQp
+  explicit PictureEncoder(const Config& config);
 
   /// An IDR picture. Macroblocks keep the bits of the last one where they are coded alike, which
   /// changes no byte.
@@ -47,7 +45,7 @@ class PictureEncoder {
  private:
   /// What the last IDR picture says of its macroblocks.
   struct LastIdr {
-    explicit LastIdr(const ParameterSets& sets) : changed(sets.width_mb, sets.height_mb) {}
+    LastIdr(int width_mb, int height_mb) : changed(width_mb, height_mb) {}
 
     bool is_valid = false;
     MacroblockSet changed;  ///< since then, in the source
@@ -74,10 +72,10 @@ class PictureEncoder {
   void put(int address, const CodedMacroblock& coded);
   void finish_slice(Bytes& unit);
 
-  ParameterSets sets_;
   int width_px_;
   int height_px_;
-  int qp_;
+  int width_mb_;
+  int height_mb_;
   MacroblockCoder coder_;
   MotionSearch motion_;
   Picture source_;

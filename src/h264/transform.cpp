@@ -74,11 +74,10 @@ Row load(const Block4x4& block, int y) {
 
 }  // namespace
 
-int chroma_qp(int luma_qp, int offset) {
+int chroma_qp(int luma_qp) {
   constexpr std::array<std::uint8_t, 22> kFrom30 = {29, 30, 31, 32, 32, 33, 34, 34, 35, 35, 36,
                                                     36, 37, 37, 37, 38, 38, 38, 39, 39, 39, 39};
-  const int index = std::clamp(luma_qp + offset, 0, 51);
-  return index < 30 ? index : kFrom30[index - 30];
+  return luma_qp < 30 ? luma_qp : kFrom30[luma_qp - 30];
 }
 
 Quantiser::Quantiser(int qp, Rounding rounding)

@@ -16,8 +16,8 @@ using Coefficients = std::array<Row, 4>;
 /// Transform coefficient levels in the order of the zig-zag scan (table 8-13, frames).
 using Levels = std::array<std::int16_t, 16>;
 
-/// QP'C for QP'Y and chroma_qp_index_offset (8.5.8, table 8-15).
-int chroma_qp(int luma_qp, int offset);
+/// QP'C for QP'Y, without an offset (8.5.8, table 8-15).
+int chroma_qp(int luma_qp);
 
 /// A quantiser rounds up late, since small levels cost more bits than they repair error.
 enum class Rounding { intra, inter };

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,18 +23,11 @@ struct Counter {
   long long pictures = 0;
 } counter;
 
-const StreamHeaders& headers_of(int number) {
+Config config_of(Numbers& numbers) {
   constexpr std::array<std::array<int, 2>, 8> kSizes = {
       {{2, 2}, {16, 16}, {18, 14}, {34, 18}, {64, 16}, {2, 50}, {48, 46}, {80, 64}}};
-  static std::array<std::unique_ptr<const StreamHeaders>, kSizes.size()> headers;
-  const auto i = static_cast<std::size_t>(number) % kSizes.size();
-  if (!headers[i]) {
-    piblocks::silence_av();
-    const auto [width, height] = kSizes[i];
-    headers[i] =
-        std::make_unique<const StreamHeaders>(Config{.width_px = width, .height_px = height});
-  }
-  return *headers[i];
+  const auto [width, height] = kSizes.at(static_cast<std::size_t>(numbers.integer(0, 7)));
+  return {.width_px = width, .height_px = height, .qp = numbers.integer(0, kMaxQp)};
 }
 
 void check(const Picture& decoded, const std::optional<ShownPicture>& shown) {
@@ -57,9 +49,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr int kMostFrames = 16;
   constexpr int kOneIn = 10;  // pictures is a key frame
   Numbers numbers({data, size});
-  const StreamHeaders& headers = headers_of(numbers.integer(0, 7));
-  PictureEncoder encoder = headers.encoder(numbers.integer(0, kMaxQp));
-  RandomPictures pictures(headers.sets.width_mb, headers.sets.height_mb, numbers);
+  piblocks::silence_av();
+  const StreamHeaders headers(config_of(numbers));
+  PictureEncoder encoder(headers.config);
+  RandomPictures pictures(headers.width_mb, headers.height_mb, numbers);
   StrictDecoder decoder(headers.bytes);
   check(encoder.decoded(), decoder.decode(encoded_idr(encoder, pictures.picture())));
   for (int frame = 1; frame < kMostFrames && numbers.has_more(); ++frame) {

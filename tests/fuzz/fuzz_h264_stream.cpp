@@ -103,7 +103,6 @@ class Stream {
   void take(const Planes& source, const CodedPicture& coded,
             const std::vector<std::uint8_t>& unit) {
     ++counter.pictures;
-    require(unit.size() <= Encoder::max_unit_bytes(config_), "a unit is too long");
     const auto shown = decoder_.decode(unit);
     require(shown.has_value(), "no picture");
     const std::string problem =

@@ -30,11 +30,11 @@ template <typename Decoder>
 void expect_every_picture(const Case& c, int qp) {
   const std::int64_t groups = many(5);  // of pictures, in a stream
   constexpr int kFramesInGroup = 12;
-  const StreamHeaders headers({.width_px = c.width_px, .height_px = c.height_px});
+  const StreamHeaders headers({.width_px = c.width_px, .height_px = c.height_px, .qp = qp});
   Random random(static_cast<std::uint64_t>(1000 * qp + c.width_px));
   SCOPED_TRACE(random.trace());
-  RandomPictures pictures(headers.sets.width_mb, headers.sets.height_mb, random);
-  PictureEncoder encoder = headers.encoder(qp);
+  RandomPictures pictures(headers.width_mb, headers.height_mb, random);
+  PictureEncoder encoder(headers.config);
   Decoder decoder(headers.bytes);
   for (std::int64_t frame = 0; frame < groups * kFramesInGroup; ++frame) {
     if (frame > 0) pictures.advance();
@@ -73,14 +73,14 @@ TEST_P(ConformanceTest, OpenH264ShowsEveryPictureAsItWasMade) {
 
 TEST(Conformance, LibavcodecShowsTheLargestDifferencesAsTheyWereMade) {
   constexpr int kSide_px = 64;
-  const StreamHeaders headers({.width_px = kSide_px, .height_px = kSide_px});
   Random random(255);
   SCOPED_TRACE(random.trace());
   for (int qp = 0; qp <= kMaxQp; ++qp) {
-    PictureEncoder encoder = headers.encoder(qp);
+    const StreamHeaders headers({.width_px = kSide_px, .height_px = kSide_px, .qp = qp});
+    PictureEncoder encoder(headers.config);
     StrictDecoder decoder(headers.bytes);
-    Picture picture(headers.sets.width_mb, headers.sets.height_mb);
-    MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
+    Picture picture(headers.width_mb, headers.height_mb);
+    MacroblockSet changed(headers.width_mb, headers.height_mb);
     for (int frame = 0; frame < 20; ++frame) {
       // Black and white in all luma, and the other way round in the next picture.
       for (int i = 0; i < kSide_px * kSide_px; ++i) {

@@ -33,7 +33,6 @@ std::string problem_of(const Config& config) {
 
 void expect_refused(const Config& config, const std::string& problem) {
   EXPECT_EQ(problem_of(config), "h264: " + problem);
-  EXPECT_THROW(Encoder::max_unit_bytes(config), Error) << problem;
 }
 
 TEST(EncoderConfig, IsRefusedByItsFieldAndLimits) {
@@ -213,17 +212,18 @@ TEST(Encoder, ExtendsPicturesOfNoWholeMacroblocks) {
   for (const auto& [width, height] :
        {std::pair(2, 2), {2, 50}, {30, 4}, {18, 14}, {64, 46}, {62, 48}}) {
     const Config config = {.width_px = width, .height_px = height};
-    const ParameterSets sets = parameter_sets(config);
-    Picture extended(sets.width_mb, sets.height_mb);
-    PictureEncoder by_hand(sets, 16 * sets.width_mb, 16 * sets.height_mb, config.qp);
-    MacroblockSet all(sets.width_mb, sets.height_mb);
-    all.add(0, 0, 16 * sets.width_mb, 16 * sets.height_mb);
+    const int width_mb = macroblocks_along(width);
+    const int height_mb = macroblocks_along(height);
+    Picture extended(width_mb, height_mb);
+    PictureEncoder by_hand({.width_px = 16 * width_mb, .height_px = 16 * height_mb});
+    MacroblockSet all(width_mb, height_mb);
+    all.add(0, 0, 16 * width_mb, 16 * height_mb);
     Encoder encoder(config);
     for (std::uint64_t i = 0; i < 4; ++i) {
       const CallersPicture picture = noise(config, i);
       for (int plane = 0; plane < 3; ++plane) {
-        for (int y = 0; y < side_of(plane) * sets.height_mb; ++y) {
-          for (int x = 0; x < side_of(plane) * sets.width_mb; ++x) {
+        for (int y = 0; y < side_of(plane) * height_mb; ++y) {
+          for (int x = 0; x < side_of(plane) * width_mb; ++x) {
             const std::uint8_t* const row =
                 picture.row(plane, std::min(y, picture.height(plane) - 1));
             extended.plane(plane)[y * extended.stride_bytes(plane) + x] =
@@ -243,8 +243,8 @@ TEST(Encoder, ExtendsPicturesOfNoWholeMacroblocks) {
 /// The units of random pictures, always the same for a seed.
 std::vector<Bytes> units_of(Encoder& encoder, const Config& config, std::uint64_t seed) {
   Random random(seed);
-  const ParameterSets sets = parameter_sets(config);
-  RandomPictures pictures(sets.width_mb, sets.height_mb, random);
+  RandomPictures pictures(macroblocks_along(config.width_px), macroblocks_along(config.height_px),
+                          random);
   CallersPicture picture(config.width_px, config.height_px);
   std::vector<Bytes> units;
   for (int i = 0; i < 10; ++i) {
@@ -269,44 +269,11 @@ TEST(Encoder, BeginsAnewAsANewOneDoes) {
   }
 }
 
-TEST(Encoder, CanBeMoved) {
-  const Config config = {.width_px = 100, .height_px = 68};
-  Encoder first(config);
-  Encoder second(std::move(first));
-  Encoder third({.width_px = 2, .height_px = 2});
-  third = std::move(second);
-  Encoder fresh(config);
-  EXPECT_EQ(units_of(third, config, 5), units_of(fresh, config, 5));
-}
-
-/// At QP 0, noise takes the most bytes; zeros and small numbers, the most start codes prevented.
-TEST(Encoder, NeverExceedsTheMostBytes) {
-  Random random(400);
-  SCOPED_TRACE(random.trace());
-  for (int height = 2; height <= 48; height += 2) {
-    const Config config = {.width_px = static_cast<int>(2 * random.integer(1, 32)),
-                           .height_px = height,
-                           .rate_numerator = 1,
-                           .qp = 0};
-    Encoder encoder(config);
-    const std::size_t most = Encoder::max_unit_bytes(config);
-    Bytes unit;
-    for (int i = 0; i < 8; ++i) {
-      CallersPicture picture = noise(config, std::uint64_t(100 * height + i));
-      if (i % 4 == 3) picture.set([&](int, int, int) { return random.integer(0, 9) / 9 * 255; });
-      if (i % 4 == 2) picture.set([&](int, int, int) { return random.integer(0, 1) * 255; });
-      const PictureType type = i % 3 == 0 ? PictureType::idr : PictureType::p;
-      encoder.encode(picture.planes(), whole(config), type, unit);
-      EXPECT_LE(unit.size(), most) << config.width_px << 'x' << height << ", picture " << i;
-    }
-  }
-}
-
 TEST(Encoder, KeepsTheCallersBytesFromPictureToPicture) {
   const Config config = {.width_px = 64, .height_px = 48};
   Encoder encoder(config);
   Bytes unit;
-  unit.reserve(Encoder::max_unit_bytes(config));
+  unit.reserve(10'000);
   const std::uint8_t* const begin = unit.data();
   for (std::uint64_t i = 0; i < 6; ++i) {
     const CallersPicture picture = noise(config, i);

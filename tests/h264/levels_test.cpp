@@ -20,61 +20,7 @@ namespace {
 constexpr PictureRate kSlow = {1, std::numeric_limits<std::int32_t>::max()};
 constexpr PictureRate kFast = {std::numeric_limits<std::int32_t>::max(), 1};
 
-bool fits(int width_px, int height_px, std::int64_t numerator = 1, std::int64_t denominator = 1) {
-  return level_problem(width_px, height_px, {numerator, denominator}).empty();
-}
-
 const Level& level_with(int idc) { return *std::ranges::find(levels(), idc, &Level::idc); }
-
-/// The largest picture of n macroblocks or fewer that is nearly a square.
-struct Sides {
-  int width_px;
-  int height_px;
-};
-Sides square_of(std::int64_t size_mb) {
-  const auto side = static_cast<int>(std::sqrt(static_cast<double>(size_mb)));
-  return {16 * side, 16 * static_cast<int>(size_mb / side)};
-}
-
-TEST(Levels, AreInOrder) {
-  const std::vector<int> numbers = {20, 21, 22, 30, 31, 32, 40, 41, 42, 50, 51, 52, 60, 61, 62};
-  ASSERT_EQ(levels().size(), numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    EXPECT_EQ(levels()[i].idc, numbers[i]);
-    if (i == 0) continue;
-    const Level& before = levels()[i - 1];
-    const Level& level = levels()[i];
-    EXPECT_GE(level.max_macroblocks_per_s, before.max_macroblocks_per_s);
-    EXPECT_GE(level.max_macroblocks, before.max_macroblocks);
-    EXPECT_GE(level.max_rate_bps, before.max_rate_bps);
-    EXPECT_GE(level.max_buffer_bits, before.max_buffer_bits);
-  }
-}
-
-/// Its rows, in its units: MaxMBPS, MaxFS, MaxBR, MaxCPB and MinCR.
-TEST(Levels, AreThoseOfTableA1) {
-  struct Row {
-    int idc, rate_mb, size_mb, rate_kbps, buffer_kb, compression;
-  };
-  const std::vector<Row> rows = {
-      {20, 11880, 396, 2000, 2000, 2},          {21, 19800, 792, 4000, 4000, 2},
-      {22, 20250, 1620, 4000, 4000, 2},         {30, 40500, 1620, 10000, 10000, 2},
-      {31, 108000, 3600, 14000, 14000, 4},      {32, 216000, 5120, 20000, 20000, 4},
-      {40, 245760, 8192, 20000, 25000, 4},      {41, 245760, 8192, 50000, 62500, 2},
-      {42, 522240, 8704, 50000, 62500, 2},      {50, 589824, 22080, 135000, 135000, 2},
-      {51, 983040, 36864, 240000, 240000, 2},   {52, 2073600, 36864, 240000, 240000, 2},
-      {60, 4177920, 139264, 240000, 240000, 2}, {61, 8355840, 139264, 480000, 480000, 2},
-      {62, 16711680, 139264, 800000, 800000, 2}};
-  for (const Row& row : rows) {
-    SCOPED_TRACE(row.idc);
-    const Level& level = level_with(row.idc);
-    EXPECT_EQ(level.max_macroblocks_per_s, row.rate_mb);
-    EXPECT_EQ(level.max_macroblocks, row.size_mb);
-    EXPECT_EQ(level.max_rate_bps, 1000LL * row.rate_kbps);
-    EXPECT_EQ(level.max_buffer_bits, 1000LL * row.buffer_kb);
-    EXPECT_EQ(level.min_compression, row.compression);
-  }
-}
 
 /// What table A-1 is known for.
 TEST(Levels, HoldWellKnownPictures) {
@@ -100,50 +46,24 @@ TEST(Levels, HoldWellKnownPictures) {
   EXPECT_EQ(lowest(7680, 4320, 200), 0);
 }
 
-TEST(Levels, HoldTheirLargestPicturesAndNoneBelowDoes) {
-  std::int64_t size_before_mb = 0;
-  for (const Level& level : levels()) {
-    SCOPED_TRACE(level.idc);
-    const Sides sides = square_of(level.max_macroblocks);
-    EXPECT_TRUE(can_hold(level, sides.width_px, sides.height_px, kSlow));
-    EXPECT_FALSE(can_hold(level, sides.width_px + 1, sides.height_px + 16, kSlow));
-    if (level.max_macroblocks > size_before_mb) {
-      EXPECT_EQ(lowest_level(sides.width_px, sides.height_px, kSlow), &level);
-    }
-    size_before_mb = level.max_macroblocks;
-  }
+/// The inequalities of A.3.1, in fractions.
+bool holds(const Level& level, int width_px, int height_px, PictureRate rate) {
+  const long width_mb = (width_px + 15) / 16;
+  const long height_mb = (height_px + 15) / 16;
+  const Rational per_second =
+      Rational(width_mb * height_mb) * Rational(long(rate.numerator), long(rate.denominator));
+  return width_mb * height_mb <= level.max_macroblocks &&
+         width_mb * width_mb <= 8 * level.max_macroblocks &&
+         height_mb * height_mb <= 8 * level.max_macroblocks &&
+         per_second <= Rational(long(level.max_macroblocks_per_s));
 }
 
-TEST(Levels, HoldTheirFastestPicturesAndNoneBelowDoes) {
-  std::int64_t rate_before_mb = 0;
-  for (const Level& level : levels()) {
-    SCOPED_TRACE(level.idc);
-    EXPECT_TRUE(can_hold(level, 16, 16, {level.max_macroblocks_per_s, 1}));
-    EXPECT_FALSE(can_hold(level, 16, 16, {level.max_macroblocks_per_s + 1, 1}));
-    EXPECT_FALSE(can_hold(level, 17, 16, {level.max_macroblocks_per_s, 1}));
-    EXPECT_TRUE(can_hold(level, 48, 16, {level.max_macroblocks_per_s, 3}));
-    EXPECT_FALSE(can_hold(level, 48, 16, {1000 * level.max_macroblocks_per_s + 1, 3000}));
-    if (level.max_macroblocks_per_s > rate_before_mb) {
-      EXPECT_EQ(lowest_level(16, 16, {level.max_macroblocks_per_s, 1}), &level);
-    }
-    rate_before_mb = level.max_macroblocks_per_s;
-  }
+const Level* lowest_that_holds(int width_px, int height_px, PictureRate rate) {
+  const auto found = std::ranges::find_if(
+      levels(), [&](const Level& level) { return holds(level, width_px, height_px, rate); });
+  return found == levels().end() ? nullptr : &*found;
 }
 
-/// By A.3.1, a side has at most Sqrt(8 MaxFS) macroblocks.
-TEST(Levels, HoldTheirLongestSides) {
-  for (const Level& level : levels()) {
-    SCOPED_TRACE(level.idc);
-    int side_mb = 1;
-    while (std::int64_t{side_mb + 1} * (side_mb + 1) <= 8 * level.max_macroblocks) ++side_mb;
-    EXPECT_TRUE(can_hold(level, 16 * side_mb, 16, kSlow));
-    EXPECT_FALSE(can_hold(level, 16 * side_mb + 1, 16, kSlow));
-    EXPECT_TRUE(can_hold(level, 16, 16 * side_mb, kSlow));
-    EXPECT_FALSE(can_hold(level, 16, 16 * side_mb + 1, kSlow));
-  }
-}
-
-/// By the inequalities of A.3.1, in fractions.
 TEST(Levels, OfRandomPicturesAreTheLowestThatHold) {
   Random random(31);
   SCOPED_TRACE(random.trace());
@@ -153,19 +73,7 @@ TEST(Levels, OfRandomPicturesAreTheLowestThatHold) {
     const auto height_px = static_cast<int>(random.integer(1, 1 << random.integer(1, 14)));
     const PictureRate rate = {random.integer(1, std::int64_t{1} << random.integer(1, 30)),
                               random.integer(1, std::int64_t{1} << random.integer(1, 30))};
-    const long width_mb = (width_px + 15) / 16;
-    const long height_mb = (height_px + 15) / 16;
-    const Rational per_second =
-        Rational(width_mb * height_mb) * Rational(long(rate.numerator), long(rate.denominator));
-    const Level* lowest = nullptr;
-    for (const Level& level : levels()) {
-      const bool holds = width_mb * height_mb <= level.max_macroblocks &&
-                         width_mb * width_mb <= 8 * level.max_macroblocks &&
-                         height_mb * height_mb <= 8 * level.max_macroblocks &&
-                         per_second <= Rational(long(level.max_macroblocks_per_s));
-      if (holds && lowest == nullptr) lowest = &level;
-      ASSERT_EQ(can_hold(level, width_px, height_px, rate), holds);
-    }
+    const Level* const lowest = lowest_that_holds(width_px, height_px, rate);
     ASSERT_EQ(lowest_level(width_px, height_px, rate), lowest);
     ASSERT_EQ(level_problem(width_px, height_px, rate).empty(), lowest != nullptr);
     seen.insert(lowest == nullptr ? 0 : lowest->idc);
@@ -174,31 +82,29 @@ TEST(Levels, OfRandomPicturesAreTheLowestThatHold) {
   EXPECT_EQ(seen.size(), levels().size());
 }
 
-/// Levels of table A-1, from 2 to 6.2: a picture of MaxFS macroblocks at their rate.
-TEST(LevelProblem, IsThatOfTheHighestLevel) {
-  EXPECT_TRUE(fits(8192, 4352));  // 512 x 272 = 139,264 macroblocks
-  EXPECT_FALSE(fits(8192, 4353));
-  EXPECT_FALSE(fits(8193, 4352));
-  EXPECT_TRUE(fits(16, 16, 16'711'680));
-  EXPECT_FALSE(fits(16, 16, 16'711'681));
-  EXPECT_TRUE(fits(8192, 4352, 120));
-  EXPECT_FALSE(fits(8192, 4352, 120001, 1000));
-  EXPECT_TRUE(fits(1, 1, 2147483647, 2147483647));
-  EXPECT_FALSE(fits(16880, 16880, kFast.numerator));
-}
-
-/// Sqrt(8 x 139,264) = 1055.5 macroblocks.
-TEST(LevelProblem, IsASideThatIsTooLong) {
-  EXPECT_EQ(kMaxSide_mb, 1055);
-  EXPECT_TRUE(fits(16880, 16));
-  EXPECT_FALSE(fits(16881, 16));
-  EXPECT_TRUE(fits(16, 16880));
-  EXPECT_FALSE(fits(16, 16881));
-  EXPECT_FALSE(fits(std::numeric_limits<int>::max(), 16));
-  EXPECT_NE(level_problem(16881, 16, {1, 1}).find("16880 px"), std::string::npos);
+/// The largest area, the longest side and the highest rate of each level, and what is beyond them.
+TEST(Levels, EndWhereTheirLimitsAre) {
+  const auto expect_lowest = [](std::int64_t width_mb, std::int64_t height_mb, PictureRate rate) {
+    const int width_px = static_cast<int>(16 * width_mb);
+    const int height_px = static_cast<int>(16 * height_mb);
+    EXPECT_EQ(lowest_level(width_px, height_px, rate), lowest_that_holds(width_px, height_px, rate))
+        << width_mb << 'x' << height_mb << " at " << rate.numerator << '/' << rate.denominator;
+  };
+  for (const Level& level : levels()) {
+    const auto side = static_cast<std::int64_t>(std::sqrt(double(level.max_macroblocks)));
+    const auto longest = static_cast<std::int64_t>(std::sqrt(8.0 * double(level.max_macroblocks)));
+    for (const std::int64_t more : {0, 1}) {
+      expect_lowest(side, level.max_macroblocks / side + more, kSlow);
+      expect_lowest(longest + more, 1, kSlow);
+      expect_lowest(1, longest + more, kSlow);
+      expect_lowest(1, 1, {level.max_macroblocks_per_s + more, 1});
+      expect_lowest(3, 1, {level.max_macroblocks_per_s + more, 3});
+    }
+  }
 }
 
 TEST(LevelProblem, SaysTheLimit) {
+  EXPECT_NE(level_problem(16881, 16, {1, 1}).find("16880 px"), std::string::npos);
   EXPECT_EQ(level_problem(8194, 4352, {1, 1}),
             "8194x4352 are 139536 macroblocks of 16x16 pixels, more than the 139264 of level 6.2, "
             "the highest");
@@ -367,7 +273,7 @@ TEST(LevelWatch, IsTheLowestLevelThatNeverBreaks) {
     }
     const Level* lowest = nullptr;
     for (const Level& level : levels()) {
-      if (lowest != nullptr || !can_hold(level, width_px, height_px, rate)) continue;
+      if (lowest != nullptr || !holds(level, width_px, height_px, rate)) continue;
       RateWatch single(level, size_mb, rate);
       bool never_breaks = true;
       for (const std::int64_t size : sizes) never_breaks = single.take(size) && never_breaks;

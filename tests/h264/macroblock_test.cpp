@@ -136,7 +136,7 @@ bool stays_uncorrected(const CodedMacroblock& coded) {
 void for_each_qp(const std::function<void(int, const MacroblockCoder&)>& check) {
   for (int qp = 0; qp <= 51; ++qp) {
     SCOPED_TRACE("QP " + std::to_string(qp));
-    MacroblockCoder coder(qp, 0);
+    MacroblockCoder coder(qp);
     check(qp, coder);
   }
 }
@@ -180,7 +180,7 @@ TEST(MacroblockCoder, PredictsWhatEqualsTheRowAboveOrTheColumnLeft) {
 }
 
 TEST(MacroblockCoder, WritesPredictionAsTheTablesSay) {
-  MacroblockCoder coder(kDefaultQp, 0);
+  MacroblockCoder coder(kDefaultQp);
   MacroblockInput input = inside(flat(90), flat(255), 90);
   // I_16x16 that predicts from above has mb_type 1, and 5 more in P slices; intra_chroma_pred_mode
   // is 0, mb_qp_delta is 0, and the coeff_token of no DC levels is 1.
@@ -198,7 +198,7 @@ TEST(MacroblockCoder, WritesPredictionAsTheTablesSay) {
 }
 
 TEST(MacroblockCoder, WritesDifferencesAsTheTablesSay) {
-  MacroblockCoder coder(kDefaultQp, 0);
+  MacroblockCoder coder(kDefaultQp);
   MacroblockInput input = inside(flat(100), flat(100), 255);
   Random random(5);
   input.source = input.before = noise(random, 100, 90);
@@ -220,7 +220,7 @@ TEST(MacroblockCoder, WritesDifferencesAsTheTablesSay) {
 TEST(MacroblockCoder, TakesTheSamplesOfNoiseAtALowQp) {
   Random random(2);
   SCOPED_TRACE(random.trace());
-  MacroblockCoder coder(0, 0);
+  MacroblockCoder coder(0);
   for (int i = 0; i < 50; ++i) {
     const MacroblockInput input = inside(noise(random, 128, 255), noise(random, 128, 255), 128);
     const CodedMacroblock coded = coder.code(input);
@@ -297,7 +297,7 @@ TEST(MacroblockCoder, KeepsTextReadableAtTheDefaultQp) {
   Random random(6);
   SCOPED_TRACE(random.trace());
   RandomInputs inputs(random);
-  MacroblockCoder coder(kDefaultQp, 0);
+  MacroblockCoder coder(kDefaultQp);
   int largest = 0;
   for (int i = 0; i < 3000; ++i) {
     const MacroblockInput input = inputs.next();

@@ -216,9 +216,9 @@ void write(Picture& picture, MacroblockSet& changed, int x) {
 
 TEST(Motion, OfWritingCostsATenthOfTheWriting) {
   const StreamHeaders headers({.width_px = 320, .height_px = 96});
-  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
-  MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
-  PictureEncoder encoder = headers.encoder(14);
+  Picture picture(headers.width_mb, headers.height_mb);
+  MacroblockSet changed(headers.width_mb, headers.height_mb);
+  PictureEncoder encoder(headers.config);
   StrictDecoder decoder(headers.bytes);
   write(picture, changed, 20);
   const auto first = encoded_idr(encoder, picture);
@@ -252,9 +252,9 @@ TEST(Motion, FollowsLargeWindowsThatScrollFarOrAreDragged) {
   SCOPED_TRACE(random.trace());
   const Picture texture = noise(random, 60, 60);
   const StreamHeaders headers({.width_px = 640, .height_px = 480});
-  PictureEncoder encoder = headers.encoder(14);
+  PictureEncoder encoder(headers.config);
   StrictDecoder decoder(headers.bytes);
-  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
+  Picture picture(headers.width_mb, headers.height_mb);
   struct Step {
     Rect window;
     int x, y;
@@ -280,10 +280,10 @@ TEST(Motion, FollowsLargeWindowsThatScrollFarOrAreDragged) {
 }
 
 TEST(Motion, LeavesWhatIsMarkedAndDoesNotChangeAlone) {
-  const StreamHeaders headers({.width_px = 320, .height_px = 96});
-  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
-  MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
-  PictureEncoder encoder = headers.encoder(38);  // so coarse that some samples are far off
+  const StreamHeaders headers({.width_px = 320, .height_px = 96, .qp = 38});
+  Picture picture(headers.width_mb, headers.height_mb);
+  MacroblockSet changed(headers.width_mb, headers.height_mb);
+  PictureEncoder encoder(headers.config);  // so coarse that some samples are far off
   write(picture, changed, 20);
   encoded_idr(encoder, picture);
   EXPECT_LE(encoded_p(encoder, picture, changed).size(), 12U);

@@ -19,8 +19,6 @@ namespace {
 using testing_support::article_frame;
 using testing_support::Pixels;
 
-constexpr int kDefaultQp = 14;
-
 const Config kConfig = {.width_px = 320, .height_px = 176, .rate_numerator = 10};
 
 /// Sets a rectangle of all planes to a value, and notes that it has changed.
@@ -68,8 +66,8 @@ class PictureEncoderTest : public testing::Test {
  protected:
   PictureEncoderTest()
       : headers_(kConfig),
-        picture_(headers_.sets.width_mb, headers_.sets.height_mb),
-        changed_(headers_.sets.width_mb, headers_.sets.height_mb) {
+        picture_(headers_.width_mb, headers_.height_mb),
+        changed_(headers_.width_mb, headers_.height_mb) {
     fill(picture_, changed_, {0, 0, kConfig.width_px, kConfig.height_px}, 235);
     changed_.clear();
   }
@@ -82,7 +80,7 @@ class PictureEncoderTest : public testing::Test {
 TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
   constexpr std::size_t kFewBytes = 12;  // with 5 of start code and header
   convert(article_frame(kConfig.width_px, kConfig.height_px, 0.5), picture_);
-  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  PictureEncoder encoder(kConfig);
   encoded_idr(encoder, picture_);
   EXPECT_LE(encoded_p(encoder, picture_, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
@@ -96,7 +94,7 @@ TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
 }
 
 TEST_F(PictureEncoderTest, LeavesUnmarkedMacroblocksAlone) {
-  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  PictureEncoder encoder(kConfig);
   encoded_idr(encoder, picture_);
   const Picture before = encoder.decoded();
   fill(picture_, changed_, {32, 32, 64, 64}, 100);
@@ -106,7 +104,7 @@ TEST_F(PictureEncoderTest, LeavesUnmarkedMacroblocksAlone) {
 }
 
 TEST_F(PictureEncoderTest, CountsWhatIsTransformed) {
-  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  PictureEncoder encoder(kConfig);
   encoded_idr(encoder, picture_);
   fill(picture_, changed_, {36, 36, 8, 8}, 16);
   encoded_p(encoder, picture_, changed_);
@@ -118,32 +116,31 @@ TEST_F(PictureEncoderTest, CountsWhatIsTransformed) {
 }
 
 /// The unit's type and its frame_num (7.3.3).
-std::pair<int, int> number_of(const Bytes& access_unit, const ParameterSets& sets) {
+std::pair<int, int> number_of(const Bytes& access_unit) {
   const std::vector<Unit> units = read_units(access_unit);
   if (units.size() != 1) return {};
   BitReader bits(units[0].rbsp);
-  bits.get_unsigned();  // first_mb_in_slice
-  bits.get_unsigned();  // slice_type
-  EXPECT_EQ(bits.get_unsigned(), sets.picture_parameter_set_id);
-  return {units[0].type, static_cast<int>(bits.get(sets.log2_max_frame_num))};
+  bits.get_unsigned();                 // first_mb_in_slice
+  bits.get_unsigned();                 // slice_type
+  EXPECT_EQ(bits.get_unsigned(), 0U);  // pic_parameter_set_id
+  return {units[0].type, static_cast<int>(bits.get(kFrameNum_bits))};
 }
 
 TEST_F(PictureEncoderTest, NumbersThePicturesOfEveryGroup) {
   using Number = std::pair<int, int>;
-  const int numbers = 1 << headers_.sets.log2_max_frame_num;
-  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  const int numbers = 1 << kFrameNum_bits;
+  PictureEncoder encoder(kConfig);
   for (const int pictures : {3, 2 * numbers + 1, 1, 2}) {
-    EXPECT_EQ(number_of(encoded_idr(encoder, picture_), headers_.sets), Number(5, 0));
+    EXPECT_EQ(number_of(encoded_idr(encoder, picture_)), Number(5, 0));
     for (int i = 1; i < pictures; ++i) {
-      EXPECT_EQ(number_of(encoded_p(encoder, picture_, changed_), headers_.sets),
-                Number(1, i % numbers));
+      EXPECT_EQ(number_of(encoded_p(encoder, picture_, changed_)), Number(1, i % numbers));
     }
   }
 }
 
 TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
-  const int pictures = std::max(300, 3 << headers_.sets.log2_max_frame_num);
-  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  const int pictures = 300;
+  PictureEncoder encoder(kConfig);
   StrictDecoder decoder(headers_.bytes);
   ASSERT_TRUE(decoder.decode(encoded_idr(encoder, picture_)));
   for (int i = 1; i < pictures; ++i) {
@@ -161,7 +158,7 @@ TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
 TEST_F(PictureEncoderTest, KeepsFlatColoursExactWithinOne) {
   Random random(10);
   SCOPED_TRACE(random.trace());
-  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  PictureEncoder encoder(kConfig);
   encoded_idr(encoder, picture_);
   for (int i = 0; i < 200; ++i) {
     changed_.clear();
@@ -179,10 +176,10 @@ TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
   constexpr double kLeast_dB = 60;
   const Config format = {.width_px = 1280, .height_px = 720, .rate_numerator = 10};
   const StreamHeaders headers(format);
-  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
-  MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
+  Picture picture(headers.width_mb, headers.height_mb);
+  MacroblockSet changed(headers.width_mb, headers.height_mb);
   changed.add(0, 0, format.width_px, format.height_px);
-  PictureEncoder encoder = headers.encoder(kDefaultQp);
+  PictureEncoder encoder(format);
   for (int i = 0; i < 20; ++i) {
     convert(article_frame(format.width_px, format.height_px, i / 10.0), picture);
     i == 0 ? encoded_idr(encoder, picture) : encoded_p(encoder, picture, changed);
@@ -193,9 +190,9 @@ TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
 }
 
 /// A group of pictures, always the same for a seed.
-Bytes encode_group(PictureEncoder& encoder, const ParameterSets& sets, std::uint64_t seed) {
+Bytes encode_group(PictureEncoder& encoder, const StreamHeaders& headers, std::uint64_t seed) {
   Random random(seed);
-  RandomPictures pictures(sets.width_mb, sets.height_mb, random);
+  RandomPictures pictures(headers.width_mb, headers.height_mb, random);
   Bytes stream = encoded_idr(encoder, pictures.picture());
   for (int i = 1; i < 12; ++i) {
     pictures.advance();
@@ -206,20 +203,21 @@ Bytes encode_group(PictureEncoder& encoder, const ParameterSets& sets, std::uint
 }
 
 TEST_F(PictureEncoderTest, MakesTheSameGroupAfterAnyOther) {
-  PictureEncoder used = headers_.encoder(kDefaultQp);
+  PictureEncoder used(kConfig);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    PictureEncoder fresh = headers_.encoder(kDefaultQp);
-    EXPECT_EQ(encode_group(used, headers_.sets, seed), encode_group(fresh, headers_.sets, seed))
-        << seed;
+    PictureEncoder fresh(kConfig);
+    EXPECT_EQ(encode_group(used, headers_, seed), encode_group(fresh, headers_, seed)) << seed;
   }
 }
 
 TEST_F(PictureEncoderTest, MakesKeyFramesOfTheSameBytesWhetherItRemembersTheLastOrNot) {
   Random random(7);
   SCOPED_TRACE(random.trace());
-  for (const int qp : {2, kDefaultQp, 34}) {
-    RandomPictures pictures(headers_.sets.width_mb, headers_.sets.height_mb, random);
-    PictureEncoder used = headers_.encoder(qp);
+  for (const int qp : {2, 14, 34}) {
+    Config config = kConfig;
+    config.qp = qp;
+    RandomPictures pictures(headers_.width_mb, headers_.height_mb, random);
+    PictureEncoder used(config);
     encoded_idr(used, pictures.picture());
     for (std::int64_t i = 0; i < many(40); ++i) {
       for (std::int64_t between = random.integer(0, 3); between > 0; --between) {
@@ -227,7 +225,7 @@ TEST_F(PictureEncoderTest, MakesKeyFramesOfTheSameBytesWhetherItRemembersTheLast
         encoded_p(used, pictures.picture(), pictures.changed());
       }
       pictures.advance();
-      PictureEncoder fresh = headers_.encoder(qp);
+      PictureEncoder fresh(config);
       used.restart();
       ASSERT_EQ(encoded_idr(used, pictures.picture(), pictures.changed()),
                 encoded_idr(fresh, pictures.picture()))

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "h264/levels.hpp"
+#include "h264/parameter_sets.hpp"
 #include "h264/picture_encoder.hpp"
 #include "media/libav/av.hpp"
 
@@ -25,14 +26,13 @@ struct StreamHeaders {
                                    lowest_level(config.width_px, config.height_px,
                                                 {config.rate_numerator, config.rate_denominator})
                                        ->idc)),
-        sets(parameter_sets(config)) {}
-
-  /// For pictures of whole or cut macroblocks.
-  PictureEncoder encoder(int qp) const { return {sets, config.width_px, config.height_px, qp}; }
+        width_mb(macroblocks_along(config.width_px)),
+        height_mb(macroblocks_along(config.height_px)) {}
 
   Config config;
   std::vector<std::uint8_t> bytes;
-  ParameterSets sets;
+  int width_mb;
+  int height_mb;
 };
 
 inline Bytes encoded_idr(PictureEncoder& encoder, const Picture& source,

@@ -311,18 +311,6 @@ TEST(ChromaDc, DoesWhatTheClausesSayForEveryQp) {
   }
 }
 
-TEST(ChromaQp, IsThatOfTable8_15) {
-  constexpr std::array kTable = {29, 30, 31, 32, 32, 33, 34, 34, 35, 35, 36,
-                                 36, 37, 37, 37, 38, 38, 38, 39, 39, 39, 39};
-  for (int luma = 0; luma <= 51; ++luma) {
-    for (int offset = -12; offset <= 12; ++offset) {
-      const int index = std::min(std::max(luma + offset, 0), 51);
-      const int expected = index < 30 ? index : kTable[static_cast<std::size_t>(index - 30)];
-      EXPECT_EQ(chroma_qp(luma, offset), expected) << luma << " and " << offset;
-    }
-  }
-}
-
 int levels_of(const Quantiser& quantiser, const Pair& pair) {
   Coefficients coefficients = transform_difference(pair.source, pair.predicted);
   Levels levels;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "h264/parameter_sets.hpp"
+#include "h264/encoder.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/frame_reader.hpp"
 
@@ -28,7 +28,7 @@ struct AvModule {
   Output (*framehash_output)(const OutputRequest& request);
   /// MakeSuccessor
   std::unique_ptr<ChunkEncoder> (*h264_successor)(const VideoFormat& format,
-                                                  const h264::ParameterSets& sets);
+                                                  const h264::Config& config);
   // The module's sides of the functions below, and of media_library_versions().
   std::unique_ptr<FrameReader> (*read_video)(const std::string& path, const std::stop_token& stop);
   std::string (*hash_of_bytes)(ByteSpan bytes);
@@ -59,9 +59,8 @@ std::string hash_of_bytes(ByteSpan bytes);
 
 /// mp4_output() by libavformat: with sound, or by one of libavcodec's encoders.
 Output mp4_output_by_libav(const OutputRequest& request);
-/// libavcodec's encoder for a stream with these headers; null if there is none.
-std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format,
-                                             const h264::ParameterSets& sets);
+/// libavcodec's encoder for a stream of this config; null if there is none.
+std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format, const h264::Config& config);
 /// read_video()
 std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
                                                const std::stop_token& stop = {});

@@ -123,18 +123,16 @@ Output webm_output(const OutputRequest& request) {
 }
 
 std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format,
-                                             const h264::ParameterSets& sets) {
+                                             const h264::Config& config) {
   try {
     auto stream =
         std::make_unique<const VideoEncoder>(format, h264_setup(format, {}, {EncoderKind::h264}));
     const AVCodecParameters& parameters = *stream->stream().parameters;
     const ByteSpan headers(parameters.extradata, std::size_t(parameters.extradata_size));
-    if (h264::read_parameter_sets(headers) != sets) return nullptr;
+    if (!h264::may_follow(headers, config)) return nullptr;
     return std::make_unique<SuccessorEncoder>(format, std::move(stream));
   } catch (const UsageError&) {
     return nullptr;  // there is no encoder
-  } catch (const h264::Error&) {
-    return nullptr;  // its headers are of another kind
   }
 }
 

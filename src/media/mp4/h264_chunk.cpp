@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "h264/levels.hpp"
+#include "h264/parameter_sets.hpp"
 #include "h264/picture.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/yuv.hpp"
@@ -118,7 +119,7 @@ class H264ChunkEncoder final : public ChunkEncoder {
   }
   /// Makes the next frame a key frame of libavcodec's encoder. @returns whether there is one
   bool hand_over() {
-    if (!successor_) successor_ = make_successor_(stream_.format, parameter_sets(stream_.config));
+    if (!successor_) successor_ = make_successor_(stream_.format, stream_.config);
     may_hand_over_ = successor_ != nullptr;
     if (!successor_) return false;
     is_handed_over_ = true;
@@ -131,8 +132,9 @@ class H264ChunkEncoder final : public ChunkEncoder {
   bool changes_too_much() const {
     constexpr std::int64_t kOneIn = 20;
     constexpr std::int64_t kFew = 64;
-    const h264::ParameterSets sets = parameter_sets(stream_.config);
-    const std::int64_t macroblocks = std::int64_t{sets.width_mb} * sets.height_mb;
+    const std::int64_t macroblocks =
+        std::int64_t{h264::macroblocks_along(stream_.config.width_px)} *
+        h264::macroblocks_along(stream_.config.height_px);
     return may_hand_over_ &&
            transformed_ > std::max(kFew, macroblocks / kOneIn) * stream_.frames_per_chunk;
   }
@@ -196,7 +198,7 @@ H264Stream::H264Stream(const VideoFormat& video_format, const EncoderSettings& s
   if (settings.preset) problems.add(no_preset(kBuiltin));
   problems.check();
   level_idc = h264::lowest_level(format.width_px, format.height_px, rate_of(format))->idc;
-  headers = write_parameter_sets(config, level_idc);
+  headers = h264::write_parameter_sets(config, level_idc);
 }
 
 std::string H264Stream::signature() const {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "h264/encoder.hpp"
-#include "h264/parameter_sets.hpp"
 #include "media/output/output.hpp"
 
 namespace piblocks {
@@ -52,7 +51,7 @@ struct H264Stream {
 /// Makes the encoder that may take the rest of a chunk; null if there is none whose slices fit the
 /// headers of the stream. Thread-safe.
 using MakeSuccessor =
-    std::function<std::unique_ptr<ChunkEncoder>(const VideoFormat&, const h264::ParameterSets&)>;
+    std::function<std::unique_ptr<ChunkEncoder>(const VideoFormat&, const h264::Config&)>;
 
 /// The encoder of one worker. @param make_successor  is called when it is first needed
 std::unique_ptr<ChunkEncoder> h264_chunk_encoder(const H264Stream& stream,

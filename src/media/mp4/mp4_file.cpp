@@ -51,9 +51,9 @@ class Mp4File final : public FrameSink {
 };
 
 std::unique_ptr<ChunkEncoder> load_successor(const VideoFormat& format,
-                                             const h264::ParameterSets& sets) {
+                                             const h264::Config& config) {
   try {
-    return av_module().h264_successor(format, sets);
+    return av_module().h264_successor(format, config);
   } catch (const MediaError&) {
     return nullptr;  // the module is not installed
   }
