@@ -70,8 +70,4 @@ std::string version_text(unsigned number);
 /// "giflib 5.2.1"
 std::string giflib_version();
 
-/// Whether a GIF, Matroska or WebM file ends before its own structure does, which libavformat does
-/// not find. False for other kinds, for a file without its size, such as a live stream, and a pipe.
-bool is_cut_off(const std::string& path);
-
 }  // namespace piblocks

@@ -11,7 +11,7 @@
 
 #include "core/output_file.hpp"
 #include "h264/levels.hpp"
-#include "media/mp4/mp4_file.hpp"
+#include "h264/mp4_writer.hpp"
 #include "media/output/output_kinds.hpp"
 
 extern "C" {
@@ -143,9 +143,8 @@ class VideoFile final : public FrameSink {
              "set up the muxer of", name_);
     if (container_.time_scale_option != nullptr) {
       // Those of the pictures: milliseconds would round the duration.
-      const Rational rate(stream_.frame_rate.num, stream_.frame_rate.den);
       check_av(av_opt_set_int(muxer_->priv_data, container_.time_scale_option,
-                              units_per_second(rate), 0),
+                              h264::mp4_time_scale(stream_.frame_rate.num), 0),
                "set up the muxer of", name_);
     }
     check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);

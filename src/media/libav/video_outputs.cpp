@@ -9,7 +9,6 @@
 #include "media/libav/video_encoder.hpp"
 #include "media/libav/video_file.hpp"
 #include "media/mp4/h264_chunk.hpp"
-#include "media/mp4/mp4_file.hpp"
 
 namespace piblocks {
 namespace {

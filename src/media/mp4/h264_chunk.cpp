@@ -32,26 +32,6 @@ h264::Config config_of(const VideoFormat& format) {
           .qp = kQp};
 }
 
-/// A picture in 4:2:0 of the size of the frames.
-class YuvPicture {
- public:
-  YuvPicture(int width_px, int height_px)
-      : width_px_(width_px),
-        luma_bytes_(std::size_t(width_px) * std::size_t(height_px)),
-        samples_(luma_bytes_ / 2 * 3) {}
-
-  YuvView<std::uint8_t> view() {
-    std::uint8_t* const y = samples_.data();
-    return {
-        {y, width_px_}, {y + luma_bytes_, width_px_ / 2}, {y + luma_bytes_ / 4 * 5, width_px_ / 2}};
-  }
-
- private:
-  std::ptrdiff_t width_px_;
-  std::size_t luma_bytes_;
-  std::vector<std::uint8_t, h264::ZeroedMemory<std::uint8_t>> samples_;
-};
-
 h264::Planes planes_of(const YuvView<std::uint8_t>& view) {
   return {{view.y.samples, view.y.stride_bytes},
           {view.cb.samples, view.cb.stride_bytes},
@@ -66,7 +46,7 @@ class H264ChunkEncoder final : public ChunkEncoder {
         make_successor_(std::move(make_successor)),
         may_hand_over_(stream.may_hand_over),
         encoder_(stream.config),
-        picture_(stream.format.width_px, stream.format.height_px) {}
+        samples_(yuv420_bytes(stream.format.width_px, stream.format.height_px)) {}
 
   void begin(std::int64_t first_frame) override {
     next_frame_ = first_frame;
@@ -77,7 +57,7 @@ class H264ChunkEncoder final : public ChunkEncoder {
   void encode() override {
     if (is_handed_over_) return successor_->encode();
     const h264::CodedPicture coded =
-        encoder_.encode(planes_of(picture_.view()), changed_, h264::PictureType::p, unit_);
+        encoder_.encode(planes_of(picture()), changed_, h264::PictureType::p, unit_);
     chunk_.push_back({.bytes = unit_,
                       .pts = next_frame_,
                       .dts = next_frame_,
@@ -110,10 +90,13 @@ class H264ChunkEncoder final : public ChunkEncoder {
       convert_here(frame, rects);
     }
   }
+  YuvView<std::uint8_t> picture() {
+    return yuv420_view(samples_.data(), stream_.format.width_px, stream_.format.height_px);
+  }
   void convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
     for (const PixelRect& rect : rects) {
       const PixelRect aligned = chroma_aligned(rect, frame);
-      convert_to_yuv420(frame, aligned, picture_.view());
+      convert_to_yuv420(frame, aligned, picture());
       changed_.push_back({aligned.x_px, aligned.y_px, aligned.width_px, aligned.height_px});
     }
   }
@@ -143,14 +126,14 @@ class H264ChunkEncoder final : public ChunkEncoder {
   MakeSuccessor make_successor_;
   bool may_hand_over_;
   h264::Encoder encoder_;
-  YuvPicture picture_;
+  std::vector<std::uint8_t, h264::ZeroedMemory<std::uint8_t>> samples_;  // of picture()
   std::vector<h264::Rect> changed_;
   Bytes unit_;
   std::int64_t next_frame_ = 0;
   EncodedChunk chunk_;
   std::int64_t transformed_ = 0;  // macroblocks of the chunk's P pictures
   bool is_handed_over_ = false;   // to libavcodec's encoder
-  bool is_behind_ = false;        // picture_ lacks frames that only libavcodec's encoder took
+  bool is_behind_ = false;        // picture() lacks frames that only libavcodec's encoder took
   std::unique_ptr<ChunkEncoder> successor_;
 };
 

@@ -1,12 +1,9 @@
 // MP4 files of H.264 without sound.
-#include "media/mp4/mp4_file.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <memory>
 
 #include "core/output_file.hpp"
@@ -60,22 +57,6 @@ std::unique_ptr<ChunkEncoder> load_successor(const VideoFormat& format,
 }
 
 }  // namespace
-
-std::int64_t units_per_second(const Rational& frame_rate) {
-  return h264::mp4_time_scale(frame_rate.get_num().get_si());
-}
-
-void check_duration_of_frame(const Rational& frame_rate) {
-  // A frame's duration has 31 bits in libavformat 59 (movenc.c), and in our own files.
-  const Integer longest = std::numeric_limits<std::int32_t>::max() - 1;
-  const Integer units_per_s = to_integer(units_per_second(frame_rate));
-  if (units_per_s / frame_rate <= longest) return;
-  const Integer longest_s = longest / units_per_s;
-  throw UsageError(
-      fmt::format("output: frame rate {} is too low for *.mp4 and *.mov: a frame can last {} s at "
-                  "most; use --fps 1/100000 or more, or write *.webm or *.png",
-                  frame_rate.get_str(), longest_s.get_str()));
-}
 
 Output mp4_output(const OutputRequest& request) {
   if (request.sound || !is_builtin(request.settings)) return av_module().mp4_output(request);

@@ -138,29 +138,6 @@ std::unique_ptr<PacketSource> reject_sound(SampleSource& /*samples*/) {
   throw MediaError("output: cannot encode sound: it has no place for any");
 }
 
-std::string odd_size_problem(const VideoFormat& format, const std::string& what) {
-  const int width = format.width_px;
-  const int height = format.height_px;
-  if (width % 2 == 0 && height % 2 == 0) return {};
-  const auto even = [](int side) { return std::max(2, side - side % 2); };
-  return fmt::format("output: size {}x{} is odd: {} needs even sides; use {}x{}", width, height,
-                     what, even(width), even(height));
-}
-
-/// At least 2: decoders take successive IDR pictures with equal headers for one (H.264, 7.4.1.2.4).
-int frames_in_a_second(const Rational& frame_rate) {
-  constexpr int kMaxFramesPerChunk = 300;
-  return int(std::clamp<Integer>(floor(frame_rate), 2, kMaxFramesPerChunk).get_si());
-}
-
-std::string no_crf(std::string_view encoder) {
-  return fmt::format("video: encoder '{}' has no crf; leave it out", encoder);
-}
-
-std::string no_preset(std::string_view encoder) {
-  return fmt::format("video: encoder '{}' has no presets; leave the preset out", encoder);
-}
-
 Output set_up_output(const std::string& name, const VideoFormat& format,
                      const EncoderSettings& settings, const std::optional<SoundFormat>& sound,
                      bool overwrite) {

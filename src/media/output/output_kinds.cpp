@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
+#include "h264/mp4_writer.hpp"
 #include "media/pixels/yuv.hpp"
 
 namespace piblocks {
@@ -42,16 +44,11 @@ class Y4mEncoder final : public PacketPerFrameEncoder {
   explicit Y4mEncoder(const VideoFormat& format)
       : PacketPerFrameEncoder(format),
         file_header_(file_header(format)),
-        width_px_(format.width_px),
-        luma_bytes_(std::size_t(format.width_px) * std::size_t(format.height_px)),
-        planes_(luma_bytes_ / 2 * 3) {}
+        planes_(yuv420_bytes(format.width_px, format.height_px)) {}
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
-    std::uint8_t* const y = planes_.data();
-    const YuvView<std::uint8_t> picture{.y = {y, width_px_},
-                                        .cb = {y + luma_bytes_, width_px_ / 2},
-                                        .cr = {y + luma_bytes_ / 4 * 5, width_px_ / 2}};
+    const auto picture = yuv420_view(planes_.data(), frame.width_px, frame.height_px);
     for (const PixelRect& rect : rects) {
       convert_to_yuv420(frame, chroma_aligned(rect, frame), picture);
     }
@@ -66,9 +63,7 @@ class Y4mEncoder final : public PacketPerFrameEncoder {
   }
 
   std::string file_header_;
-  std::ptrdiff_t width_px_;
-  std::size_t luma_bytes_;
-  Bytes planes_;  // Y, Cb, Cr
+  Bytes planes_;
 };
 
 constexpr int kChannels = 2;
@@ -158,6 +153,41 @@ class WavSink final : public FrameSink {
 };
 
 }  // namespace
+
+std::string odd_size_problem(const VideoFormat& format, const std::string& what) {
+  const int width = format.width_px;
+  const int height = format.height_px;
+  if (width % 2 == 0 && height % 2 == 0) return {};
+  const auto even = [](int side) { return std::max(2, side - side % 2); };
+  return fmt::format("output: size {}x{} is odd: {} needs even sides; use {}x{}", width, height,
+                     what, even(width), even(height));
+}
+
+/// At least 2: decoders take successive IDR pictures with equal headers for one (H.264, 7.4.1.2.4).
+int frames_in_a_second(const Rational& frame_rate) {
+  constexpr int kMaxFramesPerChunk = 300;
+  return int(std::clamp<Integer>(floor(frame_rate), 2, kMaxFramesPerChunk).get_si());
+}
+
+std::string no_crf(std::string_view encoder) {
+  return fmt::format("video: encoder '{}' has no crf; leave it out", encoder);
+}
+
+std::string no_preset(std::string_view encoder) {
+  return fmt::format("video: encoder '{}' has no presets; leave the preset out", encoder);
+}
+
+void check_duration_of_frame(const Rational& frame_rate) {
+  // A frame's duration has 31 bits in libavformat 59 (movenc.c), and in our own files.
+  const Integer longest = std::numeric_limits<std::int32_t>::max() - 1;
+  const Integer units_per_s = to_integer(h264::mp4_time_scale(frame_rate.get_num().get_si()));
+  if (units_per_s / frame_rate <= longest) return;
+  const Integer longest_s = longest / units_per_s;
+  throw UsageError(
+      fmt::format("output: frame rate {} is too low for *.mp4 and *.mov: a frame can last {} s at "
+                  "most; use --fps 1/100000 or more, or write *.webm or *.png",
+                  frame_rate.get_str(), longest_s.get_str()));
+}
 
 void PacketPerFrameEncoder::encode() {
   const std::int64_t number = next_frame_++;

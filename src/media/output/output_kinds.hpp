@@ -53,6 +53,9 @@ std::string odd_size_problem(const VideoFormat& format, const std::string& what)
 /// Frames of a closed group of pictures that lasts about a second; 2 to 300.
 int frames_in_a_second(const Rational& frame_rate);
 
+/// @throws UsageError if a frame lasts longer than *.mp4 and *.mov can say.
+void check_duration_of_frame(const Rational& frame_rate);
+
 // Messages about a setting that an encoder does not take.
 std::string no_crf(std::string_view encoder);
 std::string no_preset(std::string_view encoder);

@@ -33,6 +33,17 @@ struct YuvView {
   PlaneView<Sample> alpha = {};  ///< none if its samples are null
 };
 
+/// The bytes of a picture in 4:2:0 with 8 bits.
+constexpr std::size_t yuv420_bytes(int width_px, int height_px) {
+  return std::size_t(width_px) * std::size_t(height_px) / 2 * 3;
+}
+/// Y, Cb and Cr, one behind the other. @param samples  yuv420_bytes() of them
+inline YuvView<std::uint8_t> yuv420_view(std::uint8_t* samples, int width_px, int height_px) {
+  const std::ptrdiff_t luma = std::ptrdiff_t{width_px} * height_px;
+  return {
+      {samples, width_px}, {samples + luma, width_px / 2}, {samples + luma / 4 * 5, width_px / 2}};
+}
+
 /// The smallest rectangle to convert if pixels of `rect` have changed: even, and with the chroma
 /// samples to which an adjacent column contributes.
 PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image);

@@ -62,21 +62,13 @@ class ApngEncoder final : public PacketPerFrameEncoder {
     bytes.push_back(0);  // which replaces it
     end_png_chunk(bytes, control);
   }
-  /// By filter Up, which leaves zeros wherever a row equals the row above.
   void filter(const PixelRect& rect) {
-    constexpr std::uint8_t kUp = 2;
-    const std::size_t row_bytes = std::size_t(rect.width_px) * packed_bytes(format_.has_alpha);
-    Bytes above(row_bytes);
-    Bytes current(row_bytes);
-    rows_.resize((row_bytes + 1) * std::size_t(rect.height_px));
-    std::uint8_t* to = rows_.data();
-    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-      pack_row(picture_.view(format_.has_alpha), rect, y, current.data());
-      *to++ = kUp;
-      subtract_bytes(current.data(), above.data(), row_bytes, to);
-      to += row_bytes;
-      current.swap(above);
-    }
+    rows_.clear();
+    append_up_filtered(rows_, rect.height_px,
+                       std::size_t(rect.width_px) * packed_bytes(format_.has_alpha),
+                       [&](int row, std::uint8_t* to) {
+                         pack_row(picture_.view(format_.has_alpha), rect, rect.y_px + row, to);
+                       });
   }
 
   VideoFormat format_;
@@ -87,7 +79,7 @@ class ApngEncoder final : public PacketPerFrameEncoder {
 
 void write_trailer(OutputFile& file, std::int64_t frames) {
   Bytes end;
-  end_png_chunk(end, begin_png_chunk(end, "IEND"));
+  append_png_chunk(end, "IEND");
   file.write(end);
   Bytes control;
   append_animation_control(control, frames);

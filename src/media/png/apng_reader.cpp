@@ -16,7 +16,6 @@
 #include <variant>
 
 #include "media/pixels/animation.hpp"
-#include "media/png/exif.hpp"
 #include "media/png/png_chunk.hpp"
 #include "media/png/png_reader.hpp"
 
@@ -125,7 +124,7 @@ class ApngReader final : public FrameReader {
       if (chunk.data.size() != 8) fail(path_, "acTL: invalid length");
       announced_ = big_endian_at(chunk.data, 0);
     } else if (chunk.type == "PLTE" || chunk.type == "tRNS") {
-      append_chunk(shared_, chunk.type, chunk.data);
+      append_png_chunk(shared_, chunk.type, chunk.data);
     } else if (chunk.type == "eXIf") {
       presentation_ = presentation_by_exif(chunk.data);
     } else if (chunk.type == "fcTL") {
@@ -142,7 +141,7 @@ class ApngReader final : public FrameReader {
     Bytes png;  // empty up to the first data
     const auto add_data = [&](ByteSpan data) {
       if (png.empty()) png = beginning_of(control);
-      append_chunk(png, "IDAT", data);
+      append_png_chunk(png, "IDAT", data);
     };
     while (!control_) {
       const Chunk chunk = chunks_.next();
@@ -162,7 +161,7 @@ class ApngReader final : public FrameReader {
     }
     if (png.empty()) fail(path_, fmt::format("frame {} has no picture", frames_));
     is_default_over_ = true;
-    append_chunk(png, "IEND", {});
+    append_png_chunk(png, "IEND");
     return png;
   }
   Bytes beginning_of(const FrameControl& control) const {
@@ -173,7 +172,7 @@ class ApngReader final : public FrameReader {
     append_big_endian(size, control.height, 4);
     Bytes header = header_;
     std::ranges::copy(size, header.begin());
-    append_chunk(png, "IHDR", header);
+    append_png_chunk(png, "IHDR", header);
     append(png, shared_);
     return png;
   }
@@ -205,11 +204,6 @@ class ApngReader final : public FrameReader {
     if (data.size() < least_bytes || big_endian_at(data, 0) != next_sequence_++) {
       fail(path_, "its frames are out of order");
     }
-  }
-  static void append_chunk(Bytes& png, std::string_view type, ByteSpan data) {
-    const std::size_t chunk = begin_png_chunk(png, type);
-    append(png, data);
-    end_png_chunk(png, chunk);
   }
   void show(const FrameControl& control, const Bytes& png) {
     const AnyImage frame = read_png_samples(path_, png);

@@ -19,6 +19,12 @@ void end_png_chunk(Bytes& png, std::size_t start) {
   std::ranges::copy(length, png.begin() + std::ptrdiff_t(start));
 }
 
+void append_png_chunk(Bytes& png, std::string_view type, ByteSpan data) {
+  const std::size_t start = begin_png_chunk(png, type);
+  append(png, data);
+  end_png_chunk(png, start);
+}
+
 void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha) {
   append(png, kPngSignature);
   const std::size_t header = begin_png_chunk(png, "IHDR");
@@ -30,9 +36,8 @@ void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha) 
 }
 
 void append_png_srgb(Bytes& png) {
-  const std::size_t colours = begin_png_chunk(png, "sRGB");
-  png.push_back(0);  // perceptual intent
-  end_png_chunk(png, colours);
+  constexpr std::uint8_t kPerceptual = 0;
+  append_png_chunk(png, "sRGB", {&kPerceptual, 1});
 }
 
 Deflater::Deflater(Form form)

@@ -11,21 +11,42 @@
 #include <string_view>
 
 #include "media/output/bytes.hpp"
+#include "media/pixels/rgb24.hpp"
 
 namespace piblocks {
 
 /// How a PNG file begins.
 inline constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
+/// The byte before each row by filter Up (PNG specification, section 9.2).
+inline constexpr std::uint8_t kPngFilterUp = 2;
+
 /// Begins a chunk. What is appended before end_png_chunk() is its data.
 /// @return where the chunk starts, for end_png_chunk().
 std::size_t begin_png_chunk(Bytes& png, std::string_view type);
 void end_png_chunk(Bytes& png, std::size_t start);
+/// A whole chunk.
+void append_png_chunk(Bytes& png, std::string_view type, ByteSpan data = {});
 
 /// Signature and header of a picture with 8 bits a sample, RGB or RGBA.
 void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha);
 /// The chunk that says that colours are sRGB.
 void append_png_srgb(Bytes& png);
+
+/// Appends rows by filter Up, the difference from the row above, which leaves zeros wherever a row
+/// equals it. @param pack_row  writes row i, from 0, as bytes.
+template <typename PackRow>
+void append_up_filtered(Bytes& rows, int count, std::size_t row_bytes, const PackRow& pack_row) {
+  Bytes above(row_bytes);
+  Bytes current(row_bytes);
+  for (int i = 0; i < count; ++i) {
+    pack_row(i, current.data());
+    rows.push_back(kPngFilterUp);
+    rows.resize(rows.size() + row_bytes);
+    subtract_bytes(current.data(), above.data(), row_bytes, &rows.back() + 1 - row_bytes);
+    current.swap(above);
+  }
+}
 
 /// Encodes a picture as read_png_samples() returns it, with straight alpha; without alpha if all of
 /// it is opaque. @throws MediaError as encode_png()

@@ -8,7 +8,7 @@
 #include <span>
 #include <system_error>
 
-#include "core/output_file.hpp"
+#include "core/file_set.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/rgb24.hpp"
@@ -33,8 +33,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
         row_bytes_(std::size_t(width_px_) * packed_bytes(has_alpha_) + 1),
         blank_(row_bytes_ * kStripRows),
         strips_(std::size_t((height_px_ + kStripRows - 1) / kStripRows)) {
-    constexpr std::uint8_t kUp = 2;
-    for (std::size_t at = 0; at < blank_.size(); at += row_bytes_) blank_[at] = kUp;
+    for (std::size_t at = 0; at < blank_.size(); at += row_bytes_) blank_[at] = kPngFilterUp;
   }
 
  private:
@@ -70,7 +69,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
     append(png, std::string_view("\x03\x00", 2));  // an empty last block (RFC 1951, 3.2.6)
     append_big_endian(png, checksum, 4);
     end_png_chunk(png, last);
-    end_png_chunk(png, begin_png_chunk(png, "IEND"));
+    append_png_chunk(png, "IEND");
     return png;
   }
   /// Up is the difference from the row above, zero above the first: the row below changes too.
@@ -239,31 +238,19 @@ Bytes encode_png(const ImageView& image) {
 Bytes encode_png_samples(const Image& picture) {
   const auto is_opaque = [](std::uint32_t word) { return word >= 0xff000000; };
   if (std::ranges::all_of(picture.words, is_opaque)) return encode_png(picture.view());
-  const auto row_bytes = 4 * std::size_t(picture.width_px);
-  constexpr std::uint8_t kUp = 2;
   Bytes rows;
-  rows.reserve(std::size_t(picture.height_px) * (row_bytes + 1));
-  Bytes above(row_bytes);
-  Bytes current;
-  auto word = picture.words.begin();
-  for (int y = 0; y < picture.height_px; ++y) {
-    current.clear();
-    for (int x = 0; x < picture.width_px; ++x, ++word) {
-      for (const int shift : {16, 8, 0, 24}) current.push_back(std::uint8_t(*word >> shift));
-    }
-    rows.push_back(kUp);
-    rows.resize(rows.size() + row_bytes);
-    subtract_bytes(current.data(), above.data(), row_bytes, &rows.back() + 1 - row_bytes);
-    current.swap(above);
-  }
+  append_up_filtered(
+      rows, picture.height_px, 4 * std::size_t(picture.width_px), [&](int row, std::uint8_t* to) {
+        const auto* const words = picture.words.data() + std::ptrdiff_t{row} * picture.width_px;
+        for (const std::uint32_t word : std::span(words, words + picture.width_px)) {
+          for (const int shift : {16, 8, 0, 24}) *to++ = std::uint8_t(word >> shift);
+        }
+      });
   Bytes png;
   append_png_header(png, picture.width_px, picture.height_px, true);
   append_png_srgb(png);
-  Deflater deflater(Deflater::Form::whole);
-  const std::size_t start = begin_png_chunk(png, "IDAT");
-  append(png, deflater.compress(rows));
-  end_png_chunk(png, start);
-  end_png_chunk(png, begin_png_chunk(png, "IEND"));
+  append_png_chunk(png, "IDAT", Deflater(Deflater::Form::whole).compress(rows));
+  append_png_chunk(png, "IEND");
   return png;
 }
 

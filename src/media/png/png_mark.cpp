@@ -22,11 +22,11 @@ constexpr std::size_t kMark_at = 33;
 
 /// A tEXt chunk (PNG specification, section 11.3.4.3): keyword, zero, text.
 Bytes chunk_of(PngMark mark) {
+  Bytes text;
+  append(text, std::string_view("Software\0", 9));
+  append(text, mark == PngMark::sequence ? "piblocks render" : "piblocks compare --diff");
   Bytes chunk;
-  const std::size_t start = begin_png_chunk(chunk, "tEXt");
-  append(chunk, std::string_view("Software\0", 9));
-  append(chunk, mark == PngMark::sequence ? "piblocks render" : "piblocks compare --diff");
-  end_png_chunk(chunk, start);
+  append_png_chunk(chunk, "tEXt", text);
   return chunk;
 }
 

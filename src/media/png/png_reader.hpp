@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "media/output/bytes.hpp"
 #include "media/pixels/frame_reader.hpp"
 
 namespace piblocks {
@@ -37,6 +39,11 @@ bool is_animated_png(const std::filesystem::path& path);
 /// file announces.
 /// @throws as read_png().
 std::unique_ptr<FrameReader> read_apng(const std::filesystem::path& path);
+
+/// FrameReader::presentation() of a picture with these Exif data: what its tag Orientation says
+/// (Exif 2.32, 4.6.4). Players obey an eXIf chunk (PNG specification, third edition, 11.3.4.5).
+/// Empty if it says nothing that can be understood.
+std::string presentation_by_exif(ByteSpan exif);
 
 /// A PNG file as the only frame. Reading throws as read_png_samples().
 std::unique_ptr<FrameReader> read_png_frame(std::filesystem::path path);
