@@ -11,7 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/golden_findings.hpp"
-#include "core/output_file.hpp"
+#include "core/file_set.hpp"
 #include "core/processors.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"

@@ -1,3 +1,5 @@
+#include "core/file_set.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -6,7 +8,6 @@
 #include <system_error>
 
 #include "core/durability.hpp"
-#include "core/output_file.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

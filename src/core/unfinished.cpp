@@ -1,3 +1,5 @@
+#include "core/unfinished.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/output_file.hpp"
+#include "core/file_set.hpp"
 #include "core/overwrite_check.hpp"
 #include "media/output/bytes.hpp"
 

@@ -1,10 +1,10 @@
+#include "golden/difference.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/exact.hpp>
 
 #include <algorithm>
 #include <array>
-
-#include "golden/reports.hpp"
 
 namespace piblocks {
 namespace {

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/output_file.hpp"
+#include "core/file_set.hpp"
 #include "core/text.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
-#include "core/output_file.hpp"
+#include "core/file_set.hpp"
 #include "core/text.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"

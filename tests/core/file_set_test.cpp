@@ -1,4 +1,6 @@
 // Files that take their names together.
+#include "core/file_set.hpp"
+
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
@@ -8,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "core/output_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
@@ -35,6 +36,15 @@ class FileSetTest : public testing::Test {
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
+  }
+  /// Begins a set where SIGKILL has left these files in the folder of another.
+  void begin_after_dead_set(const Files& left) const {
+    const fs::path dead = FileSet(folder_.path(), "set").temporary_folder();
+    for (const auto& [name, text] : left) {
+      fs::create_directories((dead / name).parent_path());
+      std::ofstream(dead / name) << text;
+    }
+    const FileSet next(folder_.path(), "set");
   }
 
   TemporaryFolder folder_;
@@ -97,7 +107,6 @@ TEST_F(FileSetTest, HasNoRivalUnlessThatIsAllowed) {
   EXPECT_TRUE(fs::exists(first.temporary_folder()));
 }
 
-/// The state in which SIGKILL leaves a set whose first file has its name.
 /// Each takes what others have just made, and not yet locked, for abandoned.
 TEST_F(FileSetTest, RivalsThatStartTogetherAllGetAFolder) {
   std::vector<std::jthread> rivals;
@@ -115,43 +124,20 @@ TEST_F(FileSetTest, RivalsThatStartTogetherAllGetAFolder) {
 TEST_F(FileSetTest, CompletesWhatAKilledProcessHadBegunToRename) {
   write("1", "new");
   write("3", "old");
-  fs::path dead;
-  {
-    FileSet set(folder_.path(), "set");
-    dead = set.temporary_folder();
-  }
-  for (const char* name : {"new", "old"}) fs::create_directories(dead / name);
-  std::ofstream(dead / "old/1") << "old";
-  std::ofstream(dead / "new/2") << "new";
-  std::ofstream(dead / "new/3") << "new";
-  { const FileSet next(folder_.path(), "set"); }
+  begin_after_dead_set({{"old/1", "old"}, {"new/2", "new"}, {"new/3", "new"}});
   EXPECT_EQ(files(), (Files{{"1", "new"}, {"2", "new"}, {"3", "new"}}));
 }
 
 TEST_F(FileSetTest, RemovesWhatAKilledProcessHadOnlyToRemove) {
   write("1", "new");
-  fs::path dead;
-  {
-    FileSet set(folder_.path(), "set");
-    dead = set.temporary_folder();
-  }
-  fs::create_directories(dead / "old");
-  std::ofstream(dead / "old/1") << "old";
-  { const FileSet next(folder_.path(), "set"); }
+  begin_after_dead_set({{"old/1", "old"}});
   EXPECT_EQ(files(), (Files{{"1", "new"}}));
 }
 
 /// Before the first renaming the old files are still in place, and the new ones may be incomplete.
 TEST_F(FileSetTest, DropsWhatAKilledProcessHadNotBegunToRename) {
   write("1", "old");
-  fs::path dead;
-  {
-    FileSet set(folder_.path(), "set");
-    dead = set.temporary_folder();
-  }
-  fs::create_directories(dead / "new");
-  std::ofstream(dead / "new/1") << "ne";
-  { const FileSet next(folder_.path(), "set"); }
+  begin_after_dead_set({{"new/1", "ne"}});
   EXPECT_EQ(files(), (Files{{"1", "old"}}));
 }
 

@@ -11,9 +11,9 @@
 
 #include "cli/golden_actions.hpp"
 #include "cli/script_facts.hpp"
-#include "core/output_file.hpp"
 #include "core/processors.hpp"
 #include "core/text.hpp"
+#include "core/unfinished.hpp"
 #include "golden/reports.hpp"
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"

@@ -1,0 +1,57 @@
+// Files of one folder that take their names together.
+// In: files by their names. Out: all of them, or the old ones.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/output_file.hpp"
+#include "core/unfinished.hpp"
+
+namespace piblocks {
+
+/// Files of one folder that take their names together, replacing older ones, or none of them does.
+class FileSet {
+ public:
+  /// Makes missing folders. If a process was killed while the files of such a set took their names,
+  /// the others of these files take theirs now: they are complete.
+  /// @param label    tells which files belong together: as Unfinished's name.
+  /// @param sharing  whether another set with this label may be written at the same time.
+  /// @throws UsageError, IoError as Unfinished.
+  FileSet(const std::filesystem::path& folder, const std::string& label,
+          Unfinished::Sharing sharing = Unfinished::Sharing::exclusive);
+
+  /// A folder for intermediate files; removed with everything in it.
+  std::filesystem::path temporary_folder() const { return temporary_.path(); }
+  /// One more file.
+  /// @return where it is to be written.
+  /// @throws IoError if no file can replace what has this name: a folder, a symbolic link, a file
+  ///         without the right to write to it.
+  std::filesystem::path add(const std::string& name);
+  /// The same with its contents. @throws IoError also if it cannot be written.
+  void add(const std::string& name, std::span<const std::uint8_t> bytes);
+  /// Removes a file when the others take their names. @throws IoError as add().
+  void remove(const std::string& name);
+  /// Syncs all files and gives them their names.
+  /// @throws IoError if that fails. Every name then has the file it had before, unless all names
+  ///         had the new files already and only removing or syncing the rest failed.
+  void commit();
+
+ private:
+  void check_destination(const std::string& name) const;
+  void prepare() const;
+  void move_into_place() const;
+  /// Of a folder that a killed process left.
+  bool finish_commit(const std::filesystem::path& folder) const;
+
+  std::filesystem::path folder_;
+  MadeFolders made_folders_;
+  Unfinished temporary_;            // holds the files until they take their names
+  std::vector<std::string> names_;  // of the files
+  std::vector<std::string> removed_;
+};
+
+}  // namespace piblocks

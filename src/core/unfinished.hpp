@@ -1,0 +1,67 @@
+// Files and folders that have no final name yet.
+// In: the name that they shall have. Out: one beside it, locked, which is gone unless it is
+// renamed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "core/descriptor.hpp"
+
+namespace piblocks {
+
+/// A file or folder under a temporary name, NAME.unfinished-CODE beside the final one. The
+/// destructor removes it unless it has been renamed.
+///
+/// CODE is ten random letters or digits and six that are computed from NAME and these ten, so no
+/// other program makes such a name. The file or folder is locked (flock) as long as it is written.
+/// A killed process leaves it without a lock, and the next run for the same NAME by the same user
+/// removes it. On file systems without locks it stays.
+class Unfinished {
+ public:
+  enum class Kind { file, folder };
+  /// Whether several processes may write for the same name at the same time.
+  enum class Sharing { shared, exclusive };
+  /// Saves complete files from a folder that a killed process left.
+  /// @return whether the rest may be removed.
+  using Rescue = std::function<bool(const std::filesystem::path& folder)>;
+
+  /// @throws UsageError if it cannot be made, or another process is writing for an exclusive name;
+  ///         IoError if the disk is full or broken.
+  Unfinished(const std::filesystem::path& final_path, Kind kind, Sharing sharing = Sharing::shared,
+             const Rescue& rescue = {});
+  ~Unfinished();
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+  std::filesystem::path path() const { return path_; }
+  /// Open as long as the object lives.
+  int descriptor() const noexcept { return lock_.get(); }
+  /// Nothing is left under path(): it has been renamed.
+  void release() noexcept { path_.clear(); }
+
+ private:
+  void make(const std::filesystem::path& final_path, Kind kind);
+  void remove() noexcept;
+
+  std::string path_;
+  Descriptor lock_;
+};
+
+/// Holds the lock (flock) of an existing folder while the object lives. On a file system without
+/// locks nobody waits.
+class FolderLock {
+ public:
+  /// Waits until no other process has it. @throws Interrupted
+  explicit FolderLock(const std::filesystem::path& folder);
+
+ private:
+  Descriptor lock_;
+};
+
+/// Syncs a folder to its device, so that not even a power failure undoes what was renamed in it.
+/// @throws IoError
+void sync_folder(const std::filesystem::path& folder);
+
+}  // namespace piblocks
