@@ -10,13 +10,10 @@
 
 #include "core/descriptor.hpp"
 #include "faults/fault_fixture.hpp"
-#include "support/ordinary_user.hpp"
 
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
-using testing_support::ordinary_user_problem;
-using testing_support::OrdinaryUser;
 
 using BrokenOutputTest = FaultFixture;
 
@@ -42,21 +39,6 @@ class BrokenFolderTest : public EveryKindTest {
     return command.wait();
   }
 };
-
-TEST_P(BrokenFolderTest, ThatCannotBeWrittenIsNamed) {
-  if (const auto problem = ordinary_user_problem(); !problem.empty()) GTEST_SKIP() << problem;
-  const Files old = put_old_files(undisturbed(GetParam()));
-  fs::permissions(out().parent_path(), fs::perms(0755));
-  fs::permissions(out(), fs::perms(0755));
-  CommandResult result;
-  {
-    const OrdinaryUser user;
-    result = run(GetParam().arguments);
-  }
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("Permission denied"), std::string::npos) << result.err;
-  EXPECT_TRUE(files() == old);
-}
 
 /// What may not be removed stays, under a name that says what it is.
 TEST_P(BrokenFolderTest, ThatMayNoLongerBeWrittenKeepsTheOldFiles) {
@@ -84,37 +66,6 @@ TEST_P(BrokenFolderTest, ThatIsRemovedIsAnError) {
 }
 INSTANTIATE_TEST_SUITE_P(Every, BrokenFolderTest, testing::ValuesIn(every_kind()), name_of);
 
-/// Lets the files of the programs that are started grow to so many bytes only, as ulimit -f does.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-};
-
-class LimitTest : public EveryKindTest {};
-
-TEST_P(LimitTest, OfTheFileSizeIsAnError) {
-  const Files old = put_old_files(undisturbed(GetParam()));
-  CommandResult result;
-  {
-    const FileSizeLimit limit(100);
-    result = run(GetParam().arguments);
-  }
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("File too large"), std::string::npos) << result.err;
-  EXPECT_TRUE(files() == old);
-}
-INSTANTIATE_TEST_SUITE_P(Every, LimitTest, testing::ValuesIn(every_kind()), name_of);
-
 class StreamTest : public EveryKindTest {};
 
 /// The output must not take the number of a stream, and what is said to people with it.
@@ -134,7 +85,24 @@ TEST_F(BrokenOutputTest, ClosedStandardOutputIsAnError) {
   EXPECT_EQ(result.err, "piblocks: output: cannot write 'standard output': Bad file descriptor\n");
 }
 
-TEST_F(BrokenOutputTest, StandardOutputOfLimitedSizeIsAnError) {
+/// Lets the files of the programs that are started grow to so many bytes only, as ulimit -f does.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// The system would end the program by SIGXFSZ.
+TEST_F(BrokenOutputTest, OfLimitedSizeIsAnError) {
   const std::string file = in() / "out.y4m";
   const FileSizeLimit limit(100'000);
   const CommandResult result = run(small_render({"-o", "-"}), {.out_file = file});

@@ -6,8 +6,11 @@ In: what a person would do by mouse and keyboard, and scripts. Out: what is seen
 import base64
 import json
 import os
+import pathlib
+import shutil
 import subprocess
 import sys
+import tempfile
 
 
 # Events that are kept from page to page.
@@ -193,3 +196,47 @@ class Browser:
         clip = {"x": left, "y": top + scrolled, "width": width, "height": height, "scale": 1}
         data = self.call("Page.captureScreenshot", format="png", clip=clip)["data"]
         path.write_bytes(base64.b64decode(data))
+
+
+class PageCheck:
+    """What checks of pages share: a folder, a browser, and the count of what is wrong."""
+
+    def __init__(self, work, browser):
+        self.work, self.browser = work, browser
+        self.faults = 0
+
+    def expect(self, what, found, expected):
+        if found != expected:
+            print(f"{pathlib.Path(sys.argv[0]).name}: {what}: {found} instead of {expected}", file=sys.stderr)
+            self.faults += 1
+
+    def expect_quiet_page(self, what):
+        """It asked for nothing but itself and what it contains, and complained of nothing."""
+        asked = [event["params"]["request"]["url"] for event in self.browser.events
+                 if event["method"] == "Network.requestWillBeSent"]
+        elsewhere = [url[:80] for url in asked if not url.startswith(("data:", "file:"))]
+        self.expect(f"{what}: requests to other places", elsewhere, [])
+        files = [url for url in asked if url.startswith("file:")]
+        self.expect(f"{what}: files that were read", len(files), 1)
+        complaints = [event["params"] for event in self.browser.events if event["method"] in
+                      ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded")]
+        self.expect(f"{what}: on the console", complaints, [])
+
+
+def run_check(make, *options):
+    """Runs make(work, browser).run() and ends the process: 1 if anything is wrong, 77 without Chromium.
+
+    @param options  of Chromium
+    """
+    if not shutil.which("chromium"):
+        print("skipped: chromium (Debian package chromium) is missing")
+        sys.exit(77)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
+        work = pathlib.Path(work)
+        browser = Browser(work / "profile", *options)
+        try:
+            check = make(work, browser)
+            check.run()
+        finally:
+            browser.close()
+    sys.exit(1 if check.faults else 0)

@@ -104,16 +104,6 @@ TEST_F(IntraPredictionTest, NeedsWhatItCopies) {
   EXPECT_TRUE(is_possible(PredMode::dc, false, false));
 }
 
-TEST_F(IntraPredictionTest, NumbersItsModesAsTheTablesDo) {
-  // Tables 8-2 and 8-4 for luma, 8-5 for chroma.
-  EXPECT_EQ(static_cast<int>(PredMode::vertical), 0);
-  EXPECT_EQ(static_cast<int>(PredMode::horizontal), 1);
-  EXPECT_EQ(static_cast<int>(PredMode::dc), 2);
-  EXPECT_EQ(chroma_number(PredMode::dc), 0u);
-  EXPECT_EQ(chroma_number(PredMode::horizontal), 1u);
-  EXPECT_EQ(chroma_number(PredMode::vertical), 2u);
-}
-
 TEST_F(IntraPredictionTest, Predicts4x4Blocks) {
   for_each_case([&](PredMode mode, bool has_above, bool has_left) {
     const auto step = static_cast<std::size_t>(random_.integer(1, 16));

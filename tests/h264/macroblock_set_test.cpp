@@ -20,36 +20,6 @@ Addresses addresses_of(const MacroblockSet& set) {
   return addresses;
 }
 
-TEST(MacroblockSet, IsEmptyAtFirst) { EXPECT_EQ(addresses_of(MacroblockSet(4, 3)), Addresses{}); }
-
-TEST(MacroblockSet, HasEveryMacroblockThatARectangleTouches) {
-  MacroblockSet set(4, 3);
-  set.add(15, 15, 2, 2);
-  EXPECT_EQ(addresses_of(set), (Addresses{0, 1, 4, 5}));
-}
-
-TEST(MacroblockSet, HasNoMacroblockThatARectangleOnlyBordersOn) {
-  MacroblockSet set(4, 3);
-  set.add(16, 16, 16, 16);
-  EXPECT_EQ(addresses_of(set), Addresses{5});
-}
-
-TEST(MacroblockSet, ReachesTheEdgesOfThePicture) {
-  MacroblockSet set(4, 3);
-  set.add(63, 47, 1, 1);
-  set.add(0, 0, 1, 1);
-  EXPECT_EQ(addresses_of(set), (Addresses{0, 11}));
-  set.add(0, 0, 64, 48);
-  EXPECT_EQ(addresses_of(set).size(), 12u);
-}
-
-TEST(MacroblockSet, PassesOverEmptyRectangles) {
-  MacroblockSet set(4, 3);
-  set.add(5, 5, 0, 7);
-  set.add(5, 5, 7, 0);
-  EXPECT_EQ(addresses_of(set), Addresses{});
-}
-
 TEST(MacroblockSet, ForgetsAllAtOnce) {
   MacroblockSet set(20, 20);
   set.add(0, 0, 320, 320);
@@ -79,13 +49,14 @@ TEST(MacroblockSet, VisitsWhatIsTouchedOnceAndInOrder) {
     for (auto count = random.integer(0, 5); count > 0; --count) {
       const int x = static_cast<int>(random.integer(0, 16 * width_mb - 1));
       const int y = static_cast<int>(random.integer(0, 16 * height_mb - 1));
-      const int width = static_cast<int>(random.integer(1, 16 * width_mb - x));
-      const int height = static_cast<int>(random.integer(1, 16 * height_mb - y));
+      const int width = static_cast<int>(random.integer(0, 16 * width_mb - x));
+      const int height = static_cast<int>(random.integer(0, 16 * height_mb - y));
       set.add(x, y, width, height);
       for (int address = 0; address < width_mb * height_mb; ++address) {
         const int left = 16 * (address % width_mb);
         const int top = 16 * (address / width_mb);
-        if (x < left + 16 && left < x + width && y < top + 16 && top < y + height) {
+        if (width > 0 && height > 0 && x < left + 16 && left < x + width && y < top + 16 &&
+            top < y + height) {
           touched.insert(address);
         }
       }

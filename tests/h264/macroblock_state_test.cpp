@@ -81,16 +81,5 @@ TEST_F(MacroblockStateTest, BeginsAsThatOfASkippedMacroblock) {
   EXPECT_TRUE(std::ranges::all_of(state.pred_modes, [](int mode) { return mode == 2; }));
 }
 
-TEST_F(MacroblockStateTest, KeepsTheBlocksOfItsPlanesApart) {
-  std::size_t number = 0;
-  for (int plane = 0; plane < 3; ++plane) {
-    const int side = plane == 0 ? 4 : 2;
-    for (int i = 0; i < side * side; ++i) {
-      EXPECT_EQ((BlockPlace{i % side, i / side, plane}.number()), number++);
-    }
-  }
-  EXPECT_EQ(number, MacroblockState{}.total_coeff.size());
-}
-
 }  // namespace
 }  // namespace piblocks::h264

@@ -99,13 +99,6 @@ TEST_F(PictureTest, KnowsWhatIsBesideAMacroblock) {
   }
 }
 
-TEST(Samples, HasItsPlanesOneAfterTheOther) {
-  EXPECT_EQ(Samples::start(0), 0);
-  EXPECT_EQ(Samples::start(1), 256);
-  EXPECT_EQ(Samples::start(2), 320);
-  EXPECT_EQ(Samples::kCount, 384);
-}
-
 TEST(Samples, MeasuresHowMuchTheyDiffer) {
   Random random(8);
   SCOPED_TRACE(random.trace());

@@ -24,8 +24,6 @@ void PrintTo(const Packet& packet, std::ostream* out) {
 }
 
 namespace {
-using testing_support::decode_video;
-using testing_support::DecodedVideo;
 using testing_support::file_contents;
 using testing_support::Pixels;
 using testing_support::TemporaryFolder;
@@ -90,14 +88,6 @@ class BuiltinChunkTest : public testing::Test {
   }
   EncodedChunk first_chunk(const EncoderSettings& settings, const PaintFrame& paint) const {
     return encode_chunk(output(settings), 0, kFramesPerChunk, paint);
-  }
-  std::string problem(const EncoderSettings& settings, const VideoFormat& format = kFormat) const {
-    try {
-      output(settings, format);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "none";
   }
 
   TemporaryFolder folder_;
@@ -165,43 +155,6 @@ TEST_F(BuiltinChunkTest, IsTheSameFromManyThreads) {
   write_frames(folder_ / "a.mp4", kFormat, {}, kFrames, random_then_article(kFormat));
   write_frames_by_threads(folder_ / "b.mp4", kFormat, {}, kFrames, random_then_article(kFormat));
   EXPECT_TRUE(file_contents(folder_ / "a.mp4") == file_contents(folder_ / "b.mp4"));
-}
-
-TEST_F(BuiltinChunkTest, ShowsEveryFrameOfBothEncoders) {
-  constexpr std::int64_t kFrames = 2 * kFramesPerChunk + 1;  // the last chunk has one frame
-  const h264::StreamHeaders headers(
-      h264::Config{.width_px = kFormat.width_px, .height_px = kFormat.height_px});
-  for (const EncoderSettings& settings : {EncoderSettings{}, kBuiltin}) {
-    const auto made = output(settings);
-    const auto encoder = made.make_encoder();
-    const PaintFrame paint = random_then_article(kFormat);
-    h264::StrictDecoder decoder(headers.bytes);
-    std::int64_t frame = 0;
-    for (std::int64_t first = 0; first < kFrames; first += kFramesPerChunk) {
-      for (const Packet& packet : encode_chunk(made, *encoder, first, kFrames, paint)) {
-        const auto shown = decoder.decode(packet.bytes);
-        ASSERT_TRUE(shown) << frame;
-        EXPECT_LE(largest_error(paint(frame), *shown), kLargestError) << frame;
-        ++frame;
-      }
-    }
-    EXPECT_EQ(frame, kFrames);
-  }
-}
-
-TEST_F(BuiltinChunkTest, MakesFilesWithTheExactNumberOfFrames) {
-  constexpr std::int64_t kFrames = 40;
-  const VideoFormat format = {.width_px = 322, .height_px = 180, .frame_rate = 30};
-  for (const EncoderSettings& settings : {EncoderSettings{}, kBuiltin}) {
-    for (const PaintFrame& paint : {article_frames(format), random_frames(format)}) {
-      write_frames(folder_ / "x.mp4", format, settings, kFrames, paint);
-      const DecodedVideo video = decode_video(folder_ / "x.mp4");
-      ASSERT_EQ(video.frames.size(), std::size_t{kFrames});
-      for (std::size_t i = 0; i < video.frames.size(); ++i) {
-        EXPECT_EQ(video.frames[i].time_s, Rational(i) / format.frame_rate);
-      }
-    }
-  }
 }
 
 /// Frames in which rectangles change, often enough to leave a chunk to the stream's encoder.
@@ -318,20 +271,6 @@ TEST_F(BuiltinChunkTest, LeavesStreamsOfChosenQualityToTheStreamsEncoder) {
   EXPECT_EQ(chunk({.crf = 20}), chunk({.crf = 20, .encoder = "libx264"}));
   EXPECT_EQ(chunk({.preset = "ultrafast"}), chunk({.preset = "ultrafast", .encoder = "libx264"}));
   EXPECT_EQ(chunk({.preset = "medium"}), chunk({.preset = "medium", .encoder = "libx264"}));
-}
-
-TEST_F(BuiltinChunkTest, NamesWhatIsWrong) {
-  const auto has = [](const std::string& text, const char* part) {
-    return text.find(part) != std::string::npos;
-  };
-  EXPECT_EQ(problem(kBuiltin), "none");
-  EXPECT_TRUE(has(problem({.encoder = "damage"}), "'damage'; use one of: builtin, libx264"));
-  EXPECT_TRUE(has(problem({.crf = 52, .encoder = "builtin"}), "'builtin' has no crf"));
-  EXPECT_TRUE(
-      has(problem({.preset = "fastest", .encoder = "builtin"}), "'builtin' has no presets"));
-  const VideoFormat odd = {.width_px = 641, .height_px = 360, .frame_rate = 30};
-  EXPECT_NE(problem(kBuiltin, odd), "none");
-  EXPECT_EQ(problem(kBuiltin, odd), problem(kLibx264, odd));
 }
 
 }  // namespace

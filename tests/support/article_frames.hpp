@@ -10,26 +10,16 @@
 
 namespace piblocks::testing_support {
 
-/// An image that owns its pixels; white to begin with.
-struct Pixels {
+/// White to begin with.
+struct Pixels : Image {
   Pixels(int width, int height)
-      : width_px(width),
-        height_px(height),
-        words(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0xffffffff) {}
+      : Image{width, height,
+              std::vector<std::uint32_t>(std::size_t(width) * std::size_t(height), 0xffffffff)} {}
 
   std::uint32_t& at(int x, int y) {
-    return words[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
-                 static_cast<std::size_t>(x)];
+    return words[std::size_t(y) * std::size_t(width_px) + std::size_t(x)];
   }
   std::uint32_t at(int x, int y) const { return const_cast<Pixels&>(*this).at(x, y); }
-  ImageView view() const {
-    return {reinterpret_cast<const std::uint8_t*>(words.data()), width_px, height_px,
-            std::ptrdiff_t{4} * width_px};
-  }
-
-  int width_px;
-  int height_px;
-  std::vector<std::uint32_t> words;
 };
 
 /// The picture at an instant, in seconds; measures are those of 1080 lines, scaled to the height.

@@ -2,12 +2,12 @@
 
 #include <piblocks/error.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "media/libav/av.hpp"
 #include "media/libav/av_versions.hpp"
+#include "media/libav/decoded_frame.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>
@@ -15,8 +15,6 @@ extern "C" {
 
 namespace piblocks::testing_support {
 namespace {
-
-using AvInputPtr = std::unique_ptr<AVFormatContext, AvDeleter<avformat_close_input>>;
 
 Rational to_rational(AVRational value) {
   return value.den == 0 ? Rational(0) : Rational(value.num) / value.den;
@@ -33,70 +31,24 @@ ColourTags tags_of(const Tagged& tagged, AVColorSpace matrix) {
           .chroma_location = name_of(av_chroma_location_name(tagged.chroma_location))};
 }
 
-std::uint32_t to_rgb(double y, double cb, double cr) {
-  const double luma = (y - 16) * 255 / 219;
-  const double blue = (cb - 128) * 255 / 224 * 1.8556;
-  const double red = (cr - 128) * 255 / 224 * 1.5748;
-  const auto level = [](double value) {
-    return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 255.0)));
-  };
-  const double green = (0.2126 * red + 0.0722 * blue) / 0.7152;
-  return 0xff000000 | level(luma + red) << 16 | level(luma - green) << 8 | level(luma + blue);
-}
-
-/// Chroma at a full-resolution pixel: sited left, so on even columns and between rows.
-double chroma_at(const AVFrame& frame, int plane, int x, int y) {
-  const int columns = frame.width / 2;
-  const int rows = frame.height / 2;
-  const auto sample = [&](int column, int row) -> double {
-    return frame.data[plane][std::clamp(row, 0, rows - 1) * frame.linesize[plane] +
-                             std::min(column, columns - 1)];
-  };
-  const auto at_row = [&](int row) {
-    const double left = sample(x / 2, row);
-    return x % 2 == 0 ? left : (left + sample(x / 2 + 1, row)) / 2;
-  };
-  return 0.75 * at_row(y / 2) + 0.25 * at_row(y % 2 == 0 ? y / 2 - 1 : y / 2 + 1);
-}
-
-Pixels rgb_of(const AVFrame& frame) {
+/// rgb_of() is held to exact arithmetic by decoded_rgb_test.cpp.
+Pixels pixels_of(const AVFrame& frame, const std::string& path) {
   Pixels pixels(frame.width, frame.height);
-  for (int y = 0; y < frame.height; ++y) {
-    const std::uint8_t* row = frame.data[0] + y * frame.linesize[0];
-    for (int x = 0; x < frame.width; ++x) {
-      if (frame.format == AV_PIX_FMT_RGB24) {
-        const std::uint8_t* rgb = row + 3 * x;
-        pixels.at(x, y) = 0xff000000u | static_cast<std::uint32_t>(rgb[0]) << 16 |
-                          static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
-      } else {
-        pixels.at(x, y) = to_rgb(row[x], chroma_at(frame, 1, x, y), chroma_at(frame, 2, x, y));
-      }
-    }
-  }
+  pixels.words = flattened(rgb_of(frame, path)).words;
   return pixels;
 }
 
-DecodedFrame decoded_frame(const AVFrame& frame, const AVStream& stream) {
-  if (frame.format != AV_PIX_FMT_YUV420P && frame.format != AV_PIX_FMT_RGB24) {
-    throw MediaError("decode: the pixel format is neither yuv420p nor rgb24");
-  }
+DecodedFrame decoded_frame(const AVFrame& frame, const AVStream& stream, const std::string& path) {
   DecodedFrame decoded{
       .time_s = Rational(frame.best_effort_timestamp) * to_rational(stream.time_base),
       .key_frame = is_key_frame(frame),
-      .rgb = rgb_of(frame),
+      .rgb = pixels_of(frame, path),
       .luma = {}};
   for (int y = 0; y < frame.height && frame.format == AV_PIX_FMT_YUV420P; ++y) {
     const std::uint8_t* row = frame.data[0] + y * frame.linesize[0];
     decoded.luma.insert(decoded.luma.end(), row, row + frame.width);
   }
   return decoded;
-}
-
-AvInputPtr open_input(const std::filesystem::path& path) {
-  AVFormatContext* allocated = nullptr;
-  const std::string url = "file:" + path.string();
-  check_av(avformat_open_input(&allocated, url.c_str(), nullptr, nullptr), "open", url);
-  return AvInputPtr(allocated);
 }
 
 AvCodecContextPtr open_decoder(const AVStream& stream) {
@@ -114,7 +66,7 @@ AvCodecContextPtr open_decoder(const AVStream& stream) {
 DecodedStream decode_video(const std::filesystem::path& path,
                            const std::function<void(DecodedFrame&&)>& take) {
   silence_av();
-  const AvInputPtr input = open_input(path);
+  const AvInputPtr input = open_av_input(path);
   DecodedStream result;
   if (input->nb_streams > 0) {  // before libavformat has looked at the pictures
     const AVCodecParameters& header = *input->streams[0]->codecpar;
@@ -140,7 +92,7 @@ DecodedStream decode_video(const std::filesystem::path& path,
       if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
       check_av(code, "decode", path.string());
       result.pictures = tags_of(*frame, frame->colorspace);
-      take(decoded_frame(*frame, stream));
+      take(decoded_frame(*frame, stream, path));
     }
   };
   while (av_read_frame(input.get(), packet.get()) >= 0) {

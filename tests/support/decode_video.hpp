@@ -1,5 +1,5 @@
 // Reads a video back, to see what was really written.
-// In: a file. Out: its tags and its frames, decoded by libavcodec and converted to RGB here.
+// In: a file. Out: its tags and its frames, decoded by libavcodec, as RGB.
 #pragma once
 
 #include <piblocks/exact.hpp>
@@ -56,8 +56,6 @@ struct DecodedVideo : DecodedStream {
 };
 
 /// Decodes the first video stream and hands out its frames in the order they are shown.
-/// 4:2:0 becomes RGB by the BT.709 matrix from limited range, chroma sited left, interpolated
-/// linearly; RGB streams are passed on.
 /// @throws MediaError, IoError
 DecodedStream decode_video(const std::filesystem::path& path,
                            const std::function<void(DecodedFrame&&)>& take);

@@ -8,17 +8,16 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def skip_unless(program, path):
-    """Ends this test with 77 if the program is missing, or if scripts/web has not made `path`, the page
-    or the folder that it is made in, of these sources."""
+def skip_unless(program, page):
+    """Ends this test with 77 if the program is missing, or if scripts/web has not made the page of these
+    sources."""
     if not shutil.which(program):
         skip(f"{program} is missing")
-    if not path.exists():
-        skip(f"{path} is missing; scripts/web makes it")
+    if not page.is_file():
+        skip(f"{page} is missing; scripts/web makes it")
     digest = subprocess.run([ROOT / "src/web/digest_sources"], check=True, capture_output=True, text=True)
-    made_of = path / "sources" if path.is_dir() else path
-    if not made_of.is_file() or digest.stdout.strip() not in made_of.read_text():
-        skip(f"{path} was made of other sources; scripts/web makes it anew")
+    if digest.stdout.strip() not in page.read_text():
+        skip(f"{page} was made of other sources; scripts/web makes it anew")
 
 
 def skip(reason):
