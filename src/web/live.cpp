@@ -8,6 +8,7 @@
 
 #include "cli/script_facts.hpp"
 #include "cli/state_text.hpp"
+#include "media/pixels/rgb24.hpp"
 #include "physics/blocks.hpp"
 #include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
@@ -46,26 +47,17 @@ void convert_opaque(const std::uint8_t* from, std::uint8_t* to, int count) {
   }
 }
 
-/// Colours that are not multiplied by alpha, rounded to the nearest.
-void convert_transparent(const std::uint8_t* from, std::uint8_t* to, int count) {
-  for (int i = 0; i < 4 * count; i += 4) {
-    const int alpha = from[i + 3];
-    for (int k = 0; k < 3; ++k) {
-      const int color = from[i + 2 - k];
-      to[i + k] = static_cast<std::uint8_t>(alpha == 0 ? 0 : (color * 255 + alpha / 2) / alpha);
-    }
-    to[i + 3] = from[i + 3];
-  }
-}
-
 void convert(const ImageView& picture, Patch& patch) {
   const PixelRect& rect = patch.rect;
   patch.rgba.resize(std::size_t{4} * static_cast<std::size_t>(rect.width_px) *
                     static_cast<std::size_t>(rect.height_px));
-  const auto convert_row = picture.has_alpha ? convert_transparent : convert_opaque;
   std::uint8_t* to = patch.rgba.data();
   for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    convert_row(picture.row(y) + std::ptrdiff_t{4} * rect.x_px, to, rect.width_px);
+    if (picture.has_alpha) {
+      pack_row(picture, rect, y, to);
+    } else {
+      convert_opaque(picture.row(y) + std::ptrdiff_t{4} * rect.x_px, to, rect.width_px);
+    }
     to += std::ptrdiff_t{4} * rect.width_px;
   }
 }
