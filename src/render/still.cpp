@@ -185,6 +185,7 @@ std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::opti
   require_valid(problems_of(scene));
   return spread_over(scene, RunLog(scene).timeline(), {pictures, by});
 }
+
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants,
                                              const OnProgress& on_progress,
