@@ -2,8 +2,10 @@
 // In: the operation that failed, its object and the cause. Out: one line that names all three.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace piblocks {
@@ -18,13 +20,27 @@ struct Error : std::runtime_error {
 class UsageError : public Error {
  public:
   explicit UsageError(const std::string& problem) : UsageError(std::vector{problem}) {}
-  /// @param problems at least one; each is a line of its own in what().
+  /// @param problems at least one; each is a line of its own in what(). Of more than kMostProblems
+  ///                 the last line says how many there are.
   explicit UsageError(std::vector<std::string> problems)
-      : Error(join(problems)), problems_(std::move(problems)) {}
+      : UsageError(Bounded{}, bounded(std::move(problems))) {}
 
   const std::vector<std::string>& problems() const noexcept { return problems_; }
 
+  static constexpr std::size_t kMostProblems = 100;
+
  private:
+  struct Bounded {};
+  UsageError(Bounded /*tag*/, std::vector<std::string> problems)
+      : Error(join(problems)), problems_(std::move(problems)) {}
+
+  static std::vector<std::string> bounded(std::vector<std::string> problems) {
+    if (problems.size() <= kMostProblems) return problems;
+    const std::size_t more = problems.size() - kMostProblems;
+    problems.resize(kMostProblems);
+    problems.push_back("and " + std::to_string(more) + " more problems");
+    return problems;
+  }
   static std::string join(const std::vector<std::string>& problems) {
     std::string text;
     for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;

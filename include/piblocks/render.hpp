@@ -17,6 +17,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace piblocks {
@@ -137,6 +138,13 @@ enum class Spacing : std::uint8_t {
 std::vector<Instant> spread_instants(const Scene& scene, int pictures,
                                      std::optional<Spacing> by = std::nullopt);
 
+/// The instants of spread_instants().
+struct Spread {
+  int pictures = 12;
+  std::optional<Spacing> by = {};
+};
+using SheetInstants = std::variant<std::vector<Instant>, Spread>;
+
 /// Renders these instants side by side on one page, the time below each: a `.pdf`, `.svg` or
 /// `.png` file of the shape of A4 in landscape, or PNG on standard output for "-". Times are left
 /// out where they would make the pictures less than half as wide.
@@ -145,9 +153,8 @@ std::vector<Instant> spread_instants(const Scene& scene, int pictures,
 ///                     drawn.
 /// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
 ///         IoError, SimulationError, Interrupted
-void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
-                  const std::string& output, const OnProgress& on_progress = {},
-                  const std::stop_token& stop = {});
+void render_sheet(const Scene& scene, const SheetInstants& instants, const std::string& output,
+                  const OnProgress& on_progress = {}, const std::stop_token& stop = {});
 
 /// The frames of a film as pixels, in any order. Only what differs from the frame painted before
 /// is painted; the pixels are those that render() encodes. Used by one thread at a time; different

@@ -94,7 +94,7 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
   refuse_terminal(options);
   const Scene scene = scene_options.scene();
   scene_options.check_output(scene);
-  const std::vector<Instant> instants = sheet_instants(scene, options);
+  const SheetInstants instants = sheet_instants(options);
   const StopOnSignals signals;
   ProgressReport report(output_of(options), false,
                         {.unit = "pictures", .delay = std::chrono::seconds(1)});

@@ -46,7 +46,7 @@ std::optional<std::string> endless_note(const Scene& scene) {
       end, readable(collapse->listed));
 }
 
-std::vector<Instant> sheet_instants(const Scene& scene, const OptionTexts& options) {
+SheetInstants sheet_instants(const OptionTexts& options) {
   constexpr int kUsualCount = 12;
   for (const char* option : {"--frames", "--by"}) {
     if (!options.is_given(option) || !options.is_given("--at")) continue;
@@ -61,7 +61,7 @@ std::vector<Instant> sheet_instants(const Scene& scene, const OptionTexts& optio
     return parse_choice<Spacing>(text, {{"count", Spacing::count}, {"time", Spacing::time}});
   };
   const int count = options.value("--frames", parse_count).value_or(kUsualCount);
-  return spread_instants(scene, count, options.value("--by", parse_spacing));
+  return Spread{count, options.value("--by", parse_spacing)};
 }
 
 void claim_logos(OverwriteCheck& check, const Script& script) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
 
@@ -36,8 +37,8 @@ std::optional<Integer> infinite_count(const Timeline& log);
 std::optional<std::string> endless_note(const Scene& scene);
 
 /// What --at, or --frames and --by, say that a sheet shows.
-/// @throws UsageError, and as spread_instants()
-std::vector<Instant> sheet_instants(const Scene& scene, const OptionTexts& options);
+/// @throws UsageError
+SheetInstants sheet_instants(const OptionTexts& options);
 
 /// Enters the logos of a scene or storyboard as files that are read.
 void claim_logos(OverwriteCheck& check, const Script& script);

@@ -2,8 +2,10 @@
 #include <piblocks/bodies.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <numeric>
+#include <optional>
+#include <set>
 
 #include "physics/blocks.hpp"
 #include "physics/exact_line.hpp"
@@ -73,31 +75,97 @@ void check_line(const BodySystem& system, SceneProblems& problems) {
   }
 }
 
-/// Discs that overlap. Only those are compared whose extents along x overlap.
+/// Finds discs that overlap, in n log n steps whatever their sizes and places are (Shamos and Hoey,
+/// 1976). A vertical line sweeps over them from left to right. Discs that it crosses lie on it in
+/// the order of their centres, as long as none overlap. So only neighbours on the line are
+/// compared, whenever two become neighbours. Of two that overlap, the line loses the one with the
+/// higher number.
+class OverlapSweep {
+ public:
+  explicit OverlapSweep(const std::vector<Body>& bodies)
+      : bodies_(bodies),
+        overlapped_(bodies.size()),
+        place_(bodies.size()),
+        disc_at_(bodies.size()) {
+    std::iota(disc_at_.begin(), disc_at_.end(), std::size_t{0});
+    std::ranges::stable_sort(disc_at_, [&](std::size_t a, std::size_t b) {
+      return bodies[a].position[1] < bodies[b].position[1];
+    });
+    for (std::size_t i = 0; i < place_.size(); ++i) place_[disc_at_[i]] = i;
+    for (const auto& [x, begins, disc] : events()) begins ? enter(disc) : leave(disc);
+  }
+
+  /// Of each disc that the line has lost, the one that it overlaps.
+  const std::vector<std::optional<std::size_t>>& overlapped() const { return overlapped_; }
+
+ private:
+  using Line = std::set<std::size_t>;  // places in the order of the centres
+
+  struct Event {
+    Rational x;
+    bool begins;
+    std::size_t disc;
+  };
+
+  /// From left to right. Discs may touch: where one ends and another begins, the one ends first.
+  std::vector<Event> events() const {
+    std::vector<Event> events;
+    events.reserve(2 * bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      events.push_back({bodies_[i].position[0] - bodies_[i].size, true, i});
+      events.push_back({bodies_[i].position[0] + bodies_[i].size, false, i});
+    }
+    std::ranges::stable_sort(events, [](const Event& a, const Event& b) {
+      const int order = cmp(a.x, b.x);
+      return order < 0 || (order == 0 && a.begins < b.begins);
+    });
+    return events;
+  }
+
+  void enter(std::size_t disc) {
+    const auto entered = line_.insert(place_[disc]).first;
+    compare_before(entered);
+    if (!overlapped_[disc]) compare_before(std::next(entered));
+  }
+
+  void leave(std::size_t disc) {
+    if (!overlapped_[disc]) compare_before(line_.erase(line_.find(place_[disc])));
+  }
+
+  /// Compares a disc on the line with the one before it.
+  void compare_before(Line::iterator disc) {
+    while (disc != line_.begin() && disc != line_.end()) {
+      const auto before = std::prev(disc);
+      if (!overlap(disc_at_[*before], disc_at_[*disc])) return;
+      const bool loses_before = disc_at_[*before] > disc_at_[*disc];
+      const auto lost = loses_before ? before : disc;
+      overlapped_[disc_at_[*lost]] = disc_at_[*(loses_before ? disc : before)];
+      disc = line_.erase(lost);
+    }
+  }
+
+  bool overlap(std::size_t a, std::size_t b) const {
+    const Rational reach = bodies_[a].size + bodies_[b].size;
+    const ExactVector apart = difference(bodies_[a].position, bodies_[b].position);
+    return dot(apart, apart) < reach * reach;
+  }
+
+  const std::vector<Body>& bodies_;
+  std::vector<std::optional<std::size_t>> overlapped_;
+  std::vector<std::size_t> place_;    // of a disc, in the order of the centres
+  std::vector<std::size_t> disc_at_;  // of a place
+  Line line_;
+};
+
+/// Discs that are beyond a wall, or overlap.
 void check_plane(const BodySystem& system, SceneProblems& problems) {
   const std::vector<Body>& bodies = system.bodies;
-  const auto left = [&](std::size_t i) -> Rational {
-    return bodies[i].position[0] - bodies[i].size;
-  };
-  std::vector<std::size_t> order(bodies.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::vector<double> lefts;
-  lefts.reserve(order.size());
-  for (const std::size_t i : order) lefts.push_back(to_double(left(i)));
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return lefts[i]; });
-  for (std::size_t a = 0; a < order.size(); ++a) {
-    const Body& first = bodies[order[a]];
-    for (const Wall& wall : system.walls) check_wall(wall, first, order[a], problems);
-    const double right = std::nextafter(to_double(first.position[0] + first.size), INFINITY);
-    for (std::size_t b = a + 1; b < order.size() && lefts[order[b]] <= right; ++b) {
-      const Body& second = bodies[order[b]];
-      const Rational reach = first.size + second.size;
-      if (abs(second.position[1] - first.position[1]) >= reach) continue;
-      const ExactVector apart = difference(second.position, first.position);
-      const auto [one, other] = std::minmax(order[a], order[b]);
-      problems.require(dot(apart, apart) >= reach * reach, key_of(other, "position"),
-                       "= [{}, {}]: overlaps {}", bodies[other].position[0],
-                       bodies[other].position[1], name_of(one));
+  const OverlapSweep sweep(bodies);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const Wall& wall : system.walls) check_wall(wall, bodies[i], i, problems);
+    if (const auto& other = sweep.overlapped()[i]) {
+      problems.add(key_of(i, "position"), "= [{}, {}]: overlaps {}", bodies[i].position[0],
+                   bodies[i].position[1], name_of(*other));
     }
   }
 }

@@ -2,24 +2,28 @@
 
 #include <cmath>
 
+#include "core/real.hpp"
+#include "physics/body_logs.hpp"
 #include "physics/impact.hpp"
 
 namespace piblocks {
 namespace {
 
-/// The impulse that a body of mean mass would get if it met a wall at the mean speed.
+/// The impulse that a body of mean mass would get if it met a wall at the mean speed. Sums have
+/// more bits than are seen: those of exact fractions would grow with the number of bodies.
 double usual_impulse(const BodySystem& system) {
-  Rational mass = 0;
-  Rational twice_energy = 0;
+  constexpr mpfr_prec_t kPrecision_bits = 256;
+  Real mass(kPrecision_bits, 0);
+  Real twice_energy(kPrecision_bits, 0);
   unsigned long movable = 0;
   for (const Body& body : system.bodies) {
     if (!body.mass) continue;
     const auto& [x, y] = body.velocity;
-    mass += *body.mass;
-    twice_energy += *body.mass * (x * x + y * y);
+    mass = mass + Real(kPrecision_bits, *body.mass);
+    twice_energy = twice_energy + Real(kPrecision_bits, *body.mass * (x * x + y * y));
     ++movable;
   }
-  return 2 * std::sqrt(to_double(mass * twice_energy)) / double(movable);
+  return 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
 }
 
 /// Where a body or a wall touches the first body of a collision, seen from that body's centre.
@@ -57,10 +61,26 @@ bool is_at_wall(const BodySystem& system, const BodyCollision& collision) {
   return is_fixed(collision.first) || is_fixed(collision.second);
 }
 
+/// The impulse that the unit of Impact is for two blocks.
+double unit_of(const BlockSystem& system) {
+  const auto& [mass, position, velocity, width] = system.blue;
+  const Block& red = system.red;
+  const Rational twice_energy = mass * velocity * velocity + red.mass * red.velocity * red.velocity;
+  const Rational share = mass / (mass + red.mass);
+  return 2 * std::sqrt(to_double(share * share * red.mass * twice_energy));
+}
+
 std::optional<Impact> impact_of_bodies(const BodyLog& log, CollisionKind kind, const Integer& first,
                                        const Integer& last) {
-  const BodySystem& system = log.system();
   std::optional<Impact> sum;
+  if (const auto closed = first < last ? closed_blocks(log) : std::nullopt) {
+    sum = impact(closed->log, kind, first, last);
+    if (!sum) return sum;
+    sum->impulse *= unit_of(closed->log.system());
+    sum->position *= closed->sign;
+    return sum;
+  }
+  const BodySystem& system = log.system();
   for (Integer index = first; index <= last; ++index) {
     const BodyCollision collision = log.collision(index);
     if ((kind == CollisionKind::wall) != is_at_wall(system, collision)) continue;
@@ -69,8 +89,6 @@ std::optional<Impact> impact_of_bodies(const BodyLog& log, CollisionKind kind, c
     if (!sum) sum = Impact{kind, collision.time, 0, seen.position[0]};
     sum->impulse += impulse_of(system, collision);
   }
-  const double usual = usual_impulse(system);
-  if (sum && usual > 0) sum->impulse /= usual;
   return sum;
 }
 
@@ -82,6 +100,12 @@ std::optional<Impact> impact(const Timeline& log, CollisionKind kind, const Inte
     return impact_of_bodies(*bodies, kind, first, last);
   }
   return impact(dynamic_cast<const CollisionLog&>(log), kind, first, last);
+}
+
+double impulse_unit(const Timeline& log) {
+  const auto* const bodies = dynamic_cast<const BodyLog*>(&log);
+  const double usual = bodies == nullptr ? 0 : usual_impulse(bodies->system());
+  return usual > 0 ? usual : 1;
 }
 
 Integer count_near(const Timeline& log, const Time& time) {

@@ -38,7 +38,6 @@ std::vector<double> sample_times(std::size_t count) {
 
 std::unique_ptr<BodyLog> make_body_log(const BodySystem& system,
                                        const std::optional<Rational>& until) {
-  require_valid(problems_of(system));
   if (until) require_not_negative(*until);
   if (auto log = make_closed_body_log(system)) return log;
   if (!until && may_never_end(system)) {

@@ -28,10 +28,14 @@ std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const 
 /// may count as earlier or later. The cost does not depend on the number of collisions.
 Integer count_near(const CollisionLog& log, const Time& time);
 
-/// The same of any log. Bodies have another unit of impulse: what a body of mean mass gets from a
-/// wall that it meets at the mean speed. What meets an immovable body has met a wall.
+/// The same of any log. What meets an immovable body has met a wall. The impulse of bodies is mass
+/// times velocity.
 std::optional<Impact> impact(const Timeline& log, CollisionKind kind, const Integer& first,
                              const Integer& last);
 Integer count_near(const Timeline& log, const Time& time);
+
+/// By which the impulses of a run are divided to be heard: of bodies, what a body of mean mass gets
+/// from a wall that it meets at the mean speed; else 1. Its cost grows with the number of bodies.
+double impulse_unit(const Timeline& log);
 
 }  // namespace piblocks

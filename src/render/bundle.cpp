@@ -1,11 +1,8 @@
 #include <fmt/format.h>
-#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -85,13 +82,10 @@ void add(FileSet& files, const char* name, std::string_view text) {
 }
 
 /// Writes the poster: the instant that was asked for, or else the last frame.
-void write_poster(const RenderJob& job, std::int64_t last, FileSet& files) {
-  if (job.bundle->poster) {
-    render_still(job.script, *job.bundle->poster, files.add(kPoster));
-    return;
-  }
-  FrameRenderer renderer(job.script);
-  files.add(kPoster, encode_png(renderer.frame(last)));
+void write_poster(const RenderJob& job, const Film& film, std::int64_t last, FileSet& files) {
+  const DrawList poster =
+      job.bundle->poster ? still_picture(film, *job.bundle->poster) : film.frame(last);
+  files.add(kPoster, draw_png(poster));
 }
 
 void write_texts(const RenderJob& job, const std::string& alt, std::string_view captions,
@@ -142,17 +136,20 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   check_bundle(job);
   if (!job.overwrite) check_names(*job.bundle);
+  const Film film = film_of(job);
+  const FilmSegment& segment = *film.scene();
+  const FilmRun& shown = segment.runs().front();
+  const Scene& scene = shown.scene();
+  const RunLog& run = shown.log();
+  const Schedule& schedule = *segment.schedule();
   FileSet files(job.bundle->folder, "bundle");
-  const auto& scene = std::get<Scene>(job.script);
-  const RunLog run(scene);
-  const Schedule schedule = make_schedule(scene, run.timeline());
-  write_poster(job, frames_before_reversal(scene, schedule) - 1, files);
+  write_poster(job, film, frames_before_reversal(scene, schedule) - 1, files);
   write_texts(job, describe_video(scene, video_count(scene, run, schedule)),
               captions(scene, run, schedule), files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);
-  Rendered rendered = render_film(video, on_progress, stop);
+  Rendered rendered = render_film(video, film, on_progress, stop);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   files.commit();
   return rendered;

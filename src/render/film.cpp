@@ -12,6 +12,7 @@
 #include "draw/montage.hpp"
 #include "media/png/png_reader.hpp"
 #include "physics/blocks.hpp"
+#include "scene/pacing.hpp"
 
 namespace piblocks {
 namespace {
@@ -95,8 +96,9 @@ FilmRun::FilmRun(Scene scene, RunLog log, FilmUse use)
   }
 }
 
-DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) const {
-  if (log_.bodies() != nullptr) return picture_of_bodies(shown);
+DrawList FilmRun::picture(const FrameTime& shown, const Rational& speed,
+                          const VideoTime* video_time) const {
+  if (log_.bodies() != nullptr) return picture_of_bodies(shown, speed);
   const CollisionLog& blocks = *log_.blocks();
   const FrameNeeds& needs = composition_->needs();
   return composition_->frame(video_time == nullptr
@@ -104,38 +106,40 @@ DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) c
                                  : frame_state(blocks, shown, needs, *video_time));
 }
 
-DrawList FilmRun::picture_of_bodies(const FrameTime& shown) const {
+DrawList FilmRun::picture_of_bodies(const FrameTime& shown, const Rational& speed) const {
   Rational last = shown.time;
   for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
   const BodyLog& bodies = *log_.bodies();
   require_certain(scene_, bodies, last);
-  constexpr int kTrail_s = 2;  // of video at the scene's own speed
-  return composition_->frame(
-      frame_state(bodies, shown, composition_->needs(), scene_.time.speed * kTrail_s));
+  constexpr int kTrail_s = 2;  // of video where nothing slows it down
+  return composition_->frame(frame_state(bodies, shown, composition_->needs(), speed * kTrail_s));
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
   const VideoTime video_time{schedule, Rational(to_integer(number)) / scene_.view.frame_rate};
-  return picture(schedule.at(video_time.video_s, open_s(scene_.view)), &video_time);
+  return picture(schedule.at(video_time.video_s, open_s(scene_.view)), schedule.speed(),
+                 &video_time);
 }
 
 std::vector<DrawList> FilmRun::stills(std::span<const Rational> times,
                                       const std::function<void()>& on_picture) const {
   const FrameNeeds& needs = composition_->needs();
-  const bool depends_on_video =
-      needs.hits || needs.video_s || scene_.view.shutter > 0 || has_slow_motion(scene_.pacing);
+  const bool depends_on_video = needs.hits || needs.video_s || needs.trails ||
+                                scene_.view.shutter > 0 || has_slow_motion(scene_.pacing);
   std::optional<Schedule> schedule;
   if (depends_on_video && has_span(scene_, timeline())) {
     schedule = make_schedule(scene_, timeline());
   }
+  const Rational speed = schedule ? schedule->speed() : nominal_speed(scene_);
   std::vector<DrawList> pictures;
   for (const Rational& time : times) {
     const auto video_s = schedule ? schedule->first_shown_s(time) : std::nullopt;
     if (video_s) {
       const VideoTime video_time{*schedule, *video_s};
-      pictures.push_back(picture(schedule->at(*video_s, open_s(scene_.view)), &video_time));
+      pictures.push_back(picture(schedule->at(*video_s, open_s(scene_.view)), speed, &video_time));
     } else {
-      pictures.push_back(picture(frame_time_alone(scene_, timeline(), time), nullptr));
+      pictures.push_back(
+          picture(frame_time_alone(scene_, timeline(), time, speed), speed, nullptr));
     }
     on_picture();
   }
@@ -214,6 +218,7 @@ DrawList FilmSegment::frame(std::int64_t number) const {
 Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
     require_valid(problems_of(*scene));
+    is_scene_ = true;
     segments_.push_back({FilmSegment(*scene, use)});
     frame_count_ = segments_.front().segment.frame_count();
     return;

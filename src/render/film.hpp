@@ -56,8 +56,10 @@ class FilmRun {
   }
 
  private:
-  DrawList picture(const FrameTime& shown, const VideoTime* video_time) const;
-  DrawList picture_of_bodies(const FrameTime& shown) const;
+  /// @param speed  simulation time per second of video
+  DrawList picture(const FrameTime& shown, const Rational& speed,
+                   const VideoTime* video_time) const;
+  DrawList picture_of_bodies(const FrameTime& shown, const Rational& speed) const;
 
   Scene scene_;
   RunLog log_;
@@ -124,12 +126,17 @@ class Film {
   DrawList frame(std::int64_t number) const;
   /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
   std::span<const PlacedSegment> segments() const noexcept { return segments_; }
+  /// That of a film of one scene, whose instants are those of its run; null of a storyboard.
+  const FilmSegment* scene() const noexcept {
+    return is_scene_ ? &segments_.front().segment : nullptr;
+  }
 
  private:
   void add_segments(const Storyboard& story, FilmUse use);
   void place_segments(const Storyboard& story);
 
   View view_;
+  bool is_scene_ = false;
   std::vector<PlacedSegment> segments_;
   std::int64_t frame_count_ = 0;
 };

@@ -94,9 +94,11 @@ std::string base64_text(std::string_view text) {
   return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-void write_page(const Scene& scene, const fs::path& video, std::int64_t frames, OutputFile& page) {
-  const RunLog run(scene);
-  const Schedule schedule = make_schedule(scene, run.timeline());
+void write_page(const FilmSegment& shown, const fs::path& video, std::int64_t frames,
+                OutputFile& page) {
+  const Scene& scene = shown.runs().front().scene();
+  const RunLog& run = shown.runs().front().log();
+  const Schedule& schedule = *shown.schedule();
   const VideoCount count = video_count(scene, run, schedule);
   const Rational& rate = scene.view.frame_rate;
   page.write(fmt::format(
@@ -118,14 +120,15 @@ bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop) {
   check_page(job);
+  const Film film = film_of(job);
   const fs::path path = follow_links(job.output);
   FileSet files(path.parent_path(), path.filename(), Unfinished::Sharing::shared);
   OutputFile page(files.add(path.filename()));
   RenderJob video = job;
   video.output = files.temporary_folder() / "video.mp4";
-  Rendered rendered = render_film(video, on_progress, stop);
+  Rendered rendered = render_film(video, film, on_progress, stop);
   StepClock clock(job.profile, Step::write);
-  write_page(std::get<Scene>(job.script), video.output, rendered.frame_count, page);
+  write_page(*film.scene(), video.output, rendered.frame_count, page);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   page.finish();
   files.commit();

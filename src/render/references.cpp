@@ -15,6 +15,7 @@
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"
 #include "render/film.hpp"
+#include "render/renderings.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -128,10 +129,16 @@ void References::render_into(const fs::path& folder, int jobs, const OnProgress&
                              const std::stop_token& stop) const {
   const std::vector<std::string> names = files();
   const fs::path hashes = folder / names.front();
-  render({script_, hashes, {}, jobs}, on_progress, stop);
+  const RenderJob job{script_, hashes, {}, jobs};
+  const Film film = film_of(job);
+  render_film(job, film, on_progress, stop);
   add_fingerprint(hashes);
   for (std::size_t i = 0; i < golden().frames.size(); ++i) {
-    render_still(script_, parse_instant(golden().frames[i]), folder / names[i + 1], stop);
+    if (stop.stop_requested()) throw Interrupted("golden: interrupted");
+    const DrawList picture = still_picture(film, parse_instant(golden().frames[i]));
+    OutputFile file(folder / names[i + 1]);
+    file.write(draw_png(picture));
+    file.finish();
   }
 }
 

@@ -20,8 +20,8 @@ namespace {
 
 /// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
-  explicit Plan(const RenderJob& job)
-      : film(job.script, is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures),
+  Plan(const RenderJob& job, const Film& of)
+      : film(of),
         sound(soundtrack_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
@@ -34,7 +34,7 @@ struct Plan {
     return sound_format(film.frame_count(), film.view().frame_rate);
   }
 
-  Film film;
+  const Film& film;
   std::optional<SoundFormat> sound;
   Output output;
   Chunks chunks;
@@ -177,10 +177,14 @@ void add(StepSeconds& sum, const StepSeconds& spent) {
 
 }  // namespace
 
-Rendered render_film(const RenderJob& job, const OnProgress& on_progress,
-                     const std::stop_token& stop) {
+Film film_of(const RenderJob& job) {
   check_shard(job);
-  const Plan plan(job);
+  return Film(job.script, is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures);
+}
+
+Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
+                     const std::stop_token& stop) {
+  const Plan plan(job, film);
   if (job.max_flashes && plan.output.has_frames) {
     check_flashes(plan.film, *job.max_flashes, stop);
   }
@@ -257,7 +261,7 @@ Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);
-  return render_film(job, on_progress, stop);
+  return render_film(job, film_of(job), on_progress, stop);
 }
 
 }  // namespace

@@ -16,11 +16,16 @@
 #include "draw/draw_list.hpp"
 #include "draw/montage.hpp"
 #include "media/output/shard_file.hpp"
+#include "render/film.hpp"
 
 namespace piblocks {
 
-/// render() of a job that is neither a bundle nor a page.
-Rendered render_film(const RenderJob& job, const OnProgress& on_progress,
+/// The film of a job, which is made once: its runs are simulated then.
+/// @throws UsageError if parts are asked for of what has none; as Film()
+Film film_of(const RenderJob& job);
+
+/// render() of a job that is neither a bundle nor a page. @param film  of the job
+Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
 /// What the bytes of a rendering depend on: the header of all its shards, without their number.
@@ -49,6 +54,12 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
 /// @throws SceneError if problems_of() the script is not empty; UsageError, DrawError, MediaError,
 ///         SimulationError
 DrawList still_picture(const Script& script, const Instant& instant);
+
+/// The same of a film that is there.
+DrawList still_picture(const Film& film, const Instant& instant);
+
+/// The bytes of a PNG file with the pixels of a frame. @throws DrawError, MediaError
+std::vector<std::uint8_t> draw_png(const DrawList& list);
 
 /// Each picture is the still_picture() of its instant. @throws as still_picture(); Interrupted
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,

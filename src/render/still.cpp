@@ -24,13 +24,6 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using Draw = Bytes(const DrawList& list);
 
-Bytes draw_png(const DrawList& list) {
-  Canvas canvas(list.width_px, list.height_px,
-                list.background ? Background::opaque : Background::transparent);
-  canvas.paint(list);
-  return encode_png(canvas.view());
-}
-
 Bytes draw_page_png(const DrawList& page) { return encode_png(draw_pixels(page).view()); }
 
 /// @param command  named in messages, with the endings as its help lists them.
@@ -58,14 +51,8 @@ FilmRun run_of(const Scene& scene) {
   return {scene, RunLog(scene), FilmUse::pictures};
 }
 
-DrawList picture_of(const Scene& scene, const Instant& instant) {
-  const FilmRun run = run_of(scene);
+DrawList picture_of(const FilmRun& run, const Instant& instant) {
   return run.still(time_of(instant, run.timeline()));
-}
-
-DrawList picture_of(const Storyboard& story, const Instant& instant) {
-  const Film film(story);
-  return film.frame(frame_at(film, instant));
 }
 
 /// A4, landscape, in points, and in pixels of 200 to the inch.
@@ -134,24 +121,9 @@ Spacing usual_spacing(const Scene& scene, const Span& span, const ShownCollision
   return shows_turn && is_enough ? Spacing::count : Spacing::time;
 }
 
-}  // namespace
-
-DrawList still_picture(const Script& script, const Instant& instant) {
-  return std::visit([&](const auto& any) { return picture_of(any, instant); }, script);
-}
-
-void render_still(const Script& script, const Instant& instant, const std::string& output,
-                  const std::stop_token& stop) {
-  Draw* const draw = drawing_for(output, draw_png, "still", ".png, .svg, .pdf");
-  const DrawList list = still_picture(script, instant);
-  write_picture(output, "still", stop, [&] { return draw(list); });
-}
-
-std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
+std::vector<Instant> spread_over(const Scene& scene, const Timeline& log, const Spread& spread) {
+  const auto& [pictures, by] = spread;
   check_count(pictures < 0 ? 0 : static_cast<std::size_t>(pictures));
-  require_valid(problems_of(scene));
-  const RunLog run(scene);
-  const Timeline& log = run.timeline();
   const Span span = span_of(scene, log);
   if (by == Spacing::time) return spread_over_time(span, pictures);
   const ShownCollisions shown = collisions_of(span, log);
@@ -161,15 +133,13 @@ std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::opti
              : spread_over_time(span, pictures);
 }
 
-std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
-                                             const std::vector<Instant>& instants,
-                                             const OnProgress& on_progress,
-                                             const std::stop_token& stop) {
-  const FilmRun run = run_of(scene);
+std::vector<CaptionedPicture> pictures_of(const FilmRun& run, const std::vector<Instant>& instants,
+                                          const OnProgress& on_progress,
+                                          const std::stop_token& stop) {
   std::vector<Rational> times;
   times.reserve(instants.size());
   for (const Instant& instant : instants) times.push_back(time_of(instant, run.timeline()));
-  const std::vector<std::string> captions = sheet_captions(scene, instants, times);
+  const std::vector<std::string> captions = sheet_captions(run.scene(), instants, times);
   std::vector<CaptionedPicture> pictures;
   Progress progress{0, static_cast<std::int64_t>(times.size())};
   std::vector<DrawList> stills = run.stills(times, [&] {
@@ -183,13 +153,57 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   return pictures;
 }
 
-void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
-                  const std::string& output, const OnProgress& on_progress,
+}  // namespace
+
+std::vector<std::uint8_t> draw_png(const DrawList& list) {
+  Canvas canvas(list.width_px, list.height_px,
+                list.background ? Background::opaque : Background::transparent);
+  canvas.paint(list);
+  return encode_png(canvas.view());
+}
+
+DrawList still_picture(const Film& film, const Instant& instant) {
+  if (film.scene() != nullptr) return picture_of(film.scene()->runs().front(), instant);
+  return film.frame(frame_at(film, instant));
+}
+
+DrawList still_picture(const Script& script, const Instant& instant) {
+  // No film is made of a scene: a still may show what no film can.
+  const auto* const scene = std::get_if<Scene>(&script);
+  return scene != nullptr ? picture_of(run_of(*scene), instant)
+                          : still_picture(Film(script), instant);
+}
+
+void render_still(const Script& script, const Instant& instant, const std::string& output,
                   const std::stop_token& stop) {
+  Draw* const draw = drawing_for(output, draw_png, "still", ".png, .svg, .pdf");
+  const DrawList list = still_picture(script, instant);
+  write_picture(output, "still", stop, [&] { return draw(list); });
+}
+
+std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
+  require_valid(problems_of(scene));
+  return spread_over(scene, RunLog(scene).timeline(), {pictures, by});
+}
+
+std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
+                                             const std::vector<Instant>& instants,
+                                             const OnProgress& on_progress,
+                                             const std::stop_token& stop) {
+  return pictures_of(run_of(scene), instants, on_progress, stop);
+}
+
+void render_sheet(const Scene& scene, const SheetInstants& instants, const std::string& output,
+                  const OnProgress& on_progress, const std::stop_token& stop) {
   Draw* const draw = drawing_for(output, draw_page_png, "sheet", ".pdf, .png, .svg");
-  check_count(instants.size());
+  const auto* const named = std::get_if<std::vector<Instant>>(&instants);
+  if (named != nullptr) check_count(named->size());
+  const FilmRun run = run_of(scene);
+  std::vector<CaptionedPicture> pictures = pictures_of(
+      run,
+      named != nullptr ? *named : spread_over(scene, run.timeline(), std::get<Spread>(instants)),
+      on_progress, stop);
   const bool is_png = draw == draw_page_png;
-  std::vector<CaptionedPicture> pictures = sheet_pictures(scene, instants, on_progress, stop);
   write_picture(output, "sheet", stop, [&] {
     return draw(arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
                         is_png ? kPageHeight_px : kPageHeight_pt));

@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <span>
 #include <utility>
 
@@ -123,21 +124,23 @@ BoxSide parse_box_side(const Values& values) {
   return side;
 }
 
-void BodyDraft::read(const std::vector<TomlTable>& tables, const OnProblem& on_problem) {
+void BodyDraft::read(const std::string& path, const std::vector<TomlTable>& tables,
+                     ProblemLines& problems) {
+  path_ = path;
   bodies_ = {};
   lines_.clear();
   if (tables.size() > kMaxBodies) {
-    on_problem(tables[kMaxBodies].line,
-               fmt::format("there must be at most {} of them", kMaxBodies));
+    problems.add(path, tables[kMaxBodies].line,
+                 fmt::format("there must be at most {} of them", kMaxBodies));
     return;
   }
-  for (const TomlTable& table : tables) read_body(table, on_problem);
+  for (const TomlTable& table : tables) read_body(table, problems);
 }
 
-void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
+void BodyDraft::read_body(const TomlTable& table, ProblemLines& problems) {
   const std::size_t number = bodies_.bodies.size() + 1;
   const auto problem = [&](std::size_t line, const std::string& text) {
-    on_problem(line, fmt::format("body {}{}", number, text));
+    problems.add(path_, line, fmt::format("body {}{}", number, text));
   };
   ReadBody read;
   for (const TomlEntry& entry : table.entries) {
@@ -180,7 +183,9 @@ void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
   lines_.push_back(table.line);
 }
 
-void BodyDraft::read_walls(const std::vector<TomlTable>& tables, const OnProblem& on_problem) {
+void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>& tables,
+                           ProblemLines& problems) {
+  path_ = path;
   slanted_.clear();
   slanted_lines_.clear();
   for (const TomlTable& table : tables) {
@@ -190,8 +195,9 @@ void BodyDraft::read_walls(const std::vector<TomlTable>& tables, const OnProblem
     for (const TomlEntry& entry : table.entries) {
       const bool is_point = entry.key == "point";
       if (!is_point && entry.key != "normal") {
-        on_problem(entry.line, fmt::format("wall.{}: unknown key{}", entry.key,
-                                           did_you_mean(entry.key, {"point", "normal"})));
+        problems.add(path, entry.line,
+                     fmt::format("wall.{}: unknown key{}", entry.key,
+                                 did_you_mean(entry.key, {"point", "normal"})));
         continue;
       }
       ++found;
@@ -201,11 +207,12 @@ void BodyDraft::read_walls(const std::vector<TomlTable>& tables, const OnProblem
             ExactVector{parse_rational(entry.values[0]), parse_rational(entry.values[1])};
       } catch (const UsageError& error) {
         is_read = false;
-        on_problem(entry.line,
-                   fmt::format("wall.{} = {}: {}", entry.key, joined(entry.values), error.what()));
+        problems.add(
+            path, entry.line,
+            fmt::format("wall.{} = {}: {}", entry.key, joined(entry.values), error.what()));
       }
     }
-    if (found != 2) on_problem(table.line, "wall: needs a point on it and its normal");
+    if (found != 2) problems.add(path, table.line, "wall: needs a point on it and its normal");
     if (!is_read || found != 2) continue;  // what follows would only repeat it
     slanted_.push_back(std::move(wall));
     slanted_lines_.push_back(table.line);
@@ -218,6 +225,25 @@ Bodies BodyDraft::bodies() const {
   add_walls(y_, 1, {"lower", "upper"}, made.system.walls);
   made.system.walls.insert(made.system.walls.end(), slanted_.begin(), slanted_.end());
   return made;
+}
+
+std::string BodyDraft::origin_of(const std::string& key) const {
+  const auto origin = [&](const std::vector<std::size_t>& lines, std::size_t number) {
+    const bool is_there = number > 0 && number <= lines.size();
+    return is_there ? fmt::format("{}:{}", path_, lines[number - 1]) : std::string();
+  };
+  if (const std::size_t body = number_in(key, "body ")) return origin(lines_, body);
+  if (const std::size_t wall = number_in(key, "wall ")) return origin(slanted_lines_, wall);
+  if (key == "wall") return origin(slanted_lines_, 1);
+  return origin(lines_, key == "body" ? 1 : 0);
+}
+
+std::size_t number_in(std::string_view text, std::string_view beginning) {
+  if (!text.starts_with(beginning)) return 0;
+  const std::string_view rest = text.substr(beginning.size());
+  std::size_t number = 0;
+  std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  return number;
 }
 
 void show_all(const BodySystem& system, View& view) {

@@ -4,10 +4,12 @@
 
 #include <piblocks/scene.hpp>
 
-#include <functional>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "scene/problem_lines.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 
@@ -25,25 +27,20 @@ BoxSide parse_box_side(const Values& values);
 /// Collects bodies and box while a scene is read.
 class BodyDraft {
  public:
-  /// Says what is wrong on a line of the file.
-  using OnProblem = std::function<void(std::size_t line, const std::string& text)>;
-
-  /// Replaces the bodies by those of the tables.
-  void read(const std::vector<TomlTable>& tables, const OnProblem& on_problem);
+  /// Replaces the bodies by those of the tables in this file.
+  void read(const std::string& path, const std::vector<TomlTable>& tables, ProblemLines& problems);
   /// Replaces the slanted walls by those of the tables.
-  void read_walls(const std::vector<TomlTable>& tables, const OnProblem& on_problem);
+  void read_walls(const std::string& path, const std::vector<TomlTable>& tables,
+                  ProblemLines& problems);
   void set_box_x(BoxSide side) { x_ = std::move(side); }
   void set_box_y(BoxSide side) { y_ = std::move(side); }
 
   bool empty() const noexcept { return bodies_.bodies.empty(); }
   Bodies bodies() const;
-  /// The line on which this body begins; 0 for one that is not there.
-  std::size_t line(std::size_t body) const { return body < lines_.size() ? lines_[body] : 0; }
   bool has_slanted_walls() const noexcept { return !slanted_.empty(); }
-  /// The line on which this [[wall]] begins; 0 for one that is not there.
-  std::size_t slanted_line(std::size_t wall) const {
-    return wall < slanted_lines_.size() ? slanted_lines_[wall] : 0;
-  }
+  /// Where the table begins that sets what problems_of() calls so, as "body 3.mass"; empty if none
+  /// does.
+  std::string origin_of(const std::string& key) const;
 
  private:
   struct Read {
@@ -52,8 +49,9 @@ class BodyDraft {
     int dimensions = 1;
   };
 
-  void read_body(const TomlTable& table, const OnProblem& on_problem);
+  void read_body(const TomlTable& table, ProblemLines& problems);
 
+  std::string path_;
   Read bodies_;
   std::vector<std::size_t> lines_;
   std::optional<BoxSide> x_;
@@ -61,6 +59,9 @@ class BodyDraft {
   std::vector<Wall> slanted_;
   std::vector<std::size_t> slanted_lines_;
 };
+
+/// The 3 of "body 3.mass" after "body "; 0 if the text does not begin so.
+std::size_t number_in(std::string_view text, std::string_view beginning);
 
 /// The least range of both axes that shows the box, or the bodies at time 0, with a margin.
 void show_all(const BodySystem& system, View& view);

@@ -92,12 +92,6 @@ std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Timeline
   return Middle{*turn, rate_at_turn(system, speed)};
 }
 
-/// The speed that windows and eases are measured by. A duration sets the speed once they are known,
-/// and scales them.
-Rational nominal_speed(const Scene& scene) {
-  return scene.pacing.duration_s ? Rational(1) : scene.time.speed;
-}
-
 std::vector<Move> automatic_windows(const Scene& scene, const Timeline& log, const Span& span) {
   const Rational speed = nominal_speed(scene);
   const std::optional<Middle> middle = scene.bodies ? middle_of_bodies(log, span, speed)
@@ -180,6 +174,10 @@ Rational time_of(const Instant& instant, const char* key, const Timeline& log) {
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("{}: {}", key, error.what()));
   }
+}
+
+Rational nominal_speed(const Scene& scene) {
+  return scene.pacing.duration_s ? Rational(1) : scene.time.speed;
 }
 
 Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {

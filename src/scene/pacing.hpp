@@ -22,6 +22,10 @@ struct Move {
 /// time_of(instant, log) for the value of a key, which messages name.
 Rational time_of(const Instant& instant, const char* key, const Timeline& log);
 
+/// The speed that windows and eases are measured by. A duration sets the speed once they are known,
+/// and scales them.
+Rational nominal_speed(const Scene& scene);
+
 /// The length rounded up to whole frames.
 Rational whole_frames(const Rational& length_s, const Rational& frame_rate);
 

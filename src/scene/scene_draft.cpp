@@ -5,7 +5,6 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <string_view>
 #include <utility>
@@ -40,15 +39,6 @@ Rational parse_restitution(const Values& values) {
 
 int parse_digits(const Values& values) { return parse_int(single(values), 1, kMaxDigits); }
 
-/// The 3 of "body 3.mass" after "body "; 0 if the text does not begin so.
-std::size_t number_in(std::string_view text, std::string_view beginning) {
-  if (!text.starts_with(beginning)) return 0;
-  const std::string_view rest = text.substr(beginning.size());
-  std::size_t number = 0;
-  std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  return number;
-}
-
 /// Of the lecture themes, unless a scene says otherwise.
 const Rational kLectureShutter(1, 2);
 
@@ -73,7 +63,7 @@ void SceneDraft::read(const std::string& path, const TomlTable& table) {
         conflict_of(table, {"restitution", "blocks.restitution"}, "the restitution of the blocks"),
         conflict_of(table, {"restitution", "wall.restitution"}, "the restitution of the wall")}) {
     if (problem.empty()) continue;
-    add_problem(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, problem);
+    problems_.add(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, problem);
   }
   for (const TomlEntry& entry : table.entries) set_entry(path, entry);
 }
@@ -83,9 +73,9 @@ void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
   if (entry.key == "body" || (entry.key == "wall" && !entry.tables.empty())) {
     read_bodies(path, entry);
   } else if (entry.key == "part" && !entry.tables.empty()) {
-    add_problem(origin, "part: a single scene has no parts; this is a storyboard");
+    problems_.add(origin, "part: a single scene has no parts; this is a storyboard");
   } else if (const std::string unknown = about_unknown(entry); !unknown.empty()) {
-    add_problem(origin, fmt::format("{}: {}", entry.key, unknown));
+    problems_.add(origin, fmt::format("{}: {}", entry.key, unknown));
   } else if (entry.problem.empty()) {
     set(origin, entry.key, entry.values);
     // Relative to the folder of the scene file.
@@ -93,19 +83,18 @@ void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
       scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
     }
   } else {
-    add_problem(origin, fmt::format("{}: {}", entry.key, entry.problem));
+    problems_.add(origin, fmt::format("{}: {}", entry.key, entry.problem));
   }
 }
 
 void SceneDraft::read_bodies(const std::string& path, const TomlEntry& entry) {
-  const auto on_problem = [&](std::size_t line, const std::string& text) {
-    add_problem(fmt::format("{}:{}", path, line), text);
-  };
-  if (entry.tables.empty())
-    return on_problem(entry.line, "body: is written [[body]], once for each");
-  bodies_path_ = path;
-  if (entry.key == "wall") return bodies_.read_walls(entry.tables, on_problem);
-  bodies_.read(entry.tables, on_problem);
+  if (entry.tables.empty()) {
+    problems_.add(path, entry.line, "body: is written [[body]], once for each");
+  } else if (entry.key == "wall") {
+    bodies_.read_walls(path, entry.tables, problems_);
+  } else {
+    bodies_.read(path, entry.tables, problems_);
+  }
 }
 
 /// @return whether it is a key of the box, or of a wall that recoils
@@ -131,7 +120,7 @@ void SceneDraft::set(const std::string& origin, const std::string& key, const Va
   try {
     set_key(origin, key, values);
   } catch (const UsageError& error) {
-    add_problem(origin, fmt::format("{} = {}: {}", key, joined(values), error.what()));
+    problems_.add(origin, fmt::format("{} = {}: {}", key, joined(values), error.what()));
   }
 }
 
@@ -152,7 +141,7 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
   const std::span<const SceneKey> keys = scene_keys();
   const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
   if (found == keys.end()) {
-    add_problem(origin, fmt::format("{}: {}", key, about_unknown_key(key)));
+    problems_.add(origin, fmt::format("{}: {}", key, about_unknown_key(key)));
     return;
   }
   origins_[key] = origin;
@@ -171,13 +160,9 @@ void SceneDraft::set_mass_ratio(const std::string& origin, std::optional<int> di
   origins_["red.mass"] = origin;
 }
 
-void SceneDraft::add_problem(const std::string& origin, const std::string& text) {
-  problems_.push_back(fmt::format("{}: {}", origin, text));
-}
-
 SceneDraft SceneDraft::next(const std::string& origin) const {
   SceneDraft draft = *this;
-  draft.problems_.clear();
+  draft.problems_ = {};
   draft.default_origin_ = origin;
   return draft;
 }
@@ -228,12 +213,8 @@ void SceneDraft::set_recoiling_wall(Scene& scene) const {
 std::string SceneDraft::origin_of(const std::string& key) const {
   const auto origin = origins_.find(key);
   if (origin != origins_.end()) return origin->second;
-  std::size_t line = 0;
-  if (const std::size_t body = number_in(key, "body ")) line = bodies_.line(body - 1);
-  if (const std::size_t wall = number_in(key, "wall ")) line = bodies_.slanted_line(wall - 1);
-  if (key == "body") line = bodies_.line(0);
-  if (key == "wall") line = bodies_.slanted_line(0);
-  return line > 0 ? fmt::format("{}:{}", bodies_path_, line) : default_origin_;
+  const std::string of_table = bodies_.origin_of(key);
+  return of_table.empty() ? default_origin_ : of_table;
 }
 
 /// Whether other problems, which are reported, are the cause of this one.
@@ -243,53 +224,49 @@ bool SceneDraft::is_repeated(const std::string& key) const {
 }
 
 /// Keys of blue, red and the wall, where there are bodies instead; and a box without bodies.
-std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) const {
-  std::vector<std::string> problems;
+void SceneDraft::check_bodies(const Scene& scene, ProblemLines& problems) const {
   if (has_recoiling_wall()) {
     // In the words of the file, which has no bodies.
     for (const auto& [key, reason] : problems_of(scene.system)) {
-      problems.push_back(fmt::format("{}: {} {}", origin_of(key), key, reason));
+      problems.add(origin_of(key), fmt::format("{} {}", key, reason));
     }
   }
   if (wall_mass_ && !is_elastic(scene.system)) {
-    problems.push_back(fmt::format(
-        "{}: wall.mass: a wall that recoils is elastic; leave out the restitution, or the mass",
-        origin_of("wall.mass")));
+    problems.add(
+        origin_of("wall.mass"),
+        "wall.mass: a wall that recoils is elastic; leave out the restitution, or the mass");
   }
   for (const auto& [key, origin] : origins_) {
     const bool is_of_blocks = key.starts_with("blue.") || key.starts_with("blocks.") ||
                               key.starts_with("red.") || key.starts_with("wall.");
     if (!bodies_.empty() && key.ends_with("restitution")) {
-      problems.push_back(
-          fmt::format("{}: {}: bodies collide elastically; leave it out", origin, key));
+      problems.add(origin, key + ": bodies collide elastically; leave it out");
     } else if (!bodies_.empty() && is_of_blocks) {
-      problems.push_back(fmt::format(
-          "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,
-          key == "red.mass" && (digits_ || mass_ratio_) ? (digits_ ? "digits" : "mass-ratio")
-                                                        : key));
+      const bool is_ratio = key == "red.mass" && (digits_ || mass_ratio_);
+      problems.add(origin,
+                   fmt::format("{}: this scene has [[body]] instead of blue, red and the wall",
+                               is_ratio ? (digits_ ? "digits" : "mass-ratio") : key));
     } else if (bodies_.empty() && key.starts_with("box.")) {
-      problems.push_back(
-          fmt::format("{}: {}: is the box of bodies, and there is no [[body]]", origin, key));
+      problems.add(origin, key + ": is the box of bodies, and there is no [[body]]");
     }
   }
   if (bodies_.empty() && bodies_.has_slanted_walls()) {
-    problems.push_back(fmt::format(
-        "{}: wall: [[wall]] is a wall of bodies, and there is no [[body]]", origin_of("wall")));
+    problems.add(origin_of("wall"), "wall: [[wall]] is a wall of bodies, and there is no [[body]]");
   }
-  return problems;
 }
 
-std::vector<std::string> SceneDraft::problems(bool of_film) const {
-  std::vector<std::string> problems = problems_;
-  const Scene made = scene();
-  for (std::string& problem : problems_of_bodies(made)) problems.push_back(std::move(problem));
+Scene SceneDraft::make(ProblemLines& problems, bool of_film) const {
+  Scene made = scene();
+  ProblemLines found = problems_;
+  check_bodies(made, found);
   for (const auto& [key, reason] : problems_of(made)) {
     if (of_film && !is_film_key(key)) continue;
-    if (!problems.empty() && is_repeated(key)) continue;
+    if (!found.empty() && is_repeated(key)) continue;
     const std::string named = key_of(made, key);
-    problems.push_back(fmt::format("{}: {} {}", origin_of(named), named, reason));
+    found.add(origin_of(named), fmt::format("{} {}", named, reason));
   }
-  return problems;
+  problems.add(found);
+  return made;
 }
 
 }  // namespace piblocks

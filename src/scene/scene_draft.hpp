@@ -7,9 +7,9 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "scene/body_keys.hpp"
+#include "scene/problem_lines.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 
@@ -27,18 +27,19 @@ class SceneDraft {
   /// A draft that begins with the values of this one, without its problems.
   SceneDraft next(const std::string& origin) const;
 
-  Scene scene() const;
-  /// Everything that is wrong, also text that could not be read: origin, key, value and reason.
+  /// The scene. Adds everything that is wrong with it, also text that could not be read: origin,
+  /// key, value and reason.
   /// @param of_film  whether to leave out values of keys that are not for a whole film.
-  std::vector<std::string> problems(bool of_film = false) const;
+  Scene make(ProblemLines& problems, bool of_film = false) const;
 
  private:
+  Scene scene() const;
   void set_entry(const std::string& path, const TomlEntry& entry);
   void read_bodies(const std::string& path, const TomlEntry& entry);
   void set_recoiling_wall(Scene& scene) const;
   void set_shutter(View& view) const;
   bool set_box(const std::string& key, const Values& values);
-  std::vector<std::string> problems_of_bodies(const Scene& scene) const;
+  void check_bodies(const Scene& scene, ProblemLines& problems) const;
   std::string origin_of(const std::string& key) const;
   bool is_repeated(const std::string& key) const;
   bool has_recoiling_wall() const { return wall_mass_ && bodies_.empty(); }
@@ -46,18 +47,16 @@ class SceneDraft {
   /// What red's mass follows from: one of the two, or neither.
   void set_mass_ratio(const std::string& origin, std::optional<int> digits,
                       std::optional<Rational> ratio);
-  void add_problem(const std::string& origin, const std::string& text);
 
   Scene scene_;
   BodyDraft bodies_;
-  std::string bodies_path_;
   std::optional<Rational> wall_mass_;  ///< nothing: the wall does not move
   std::optional<Rational> mass_ratio_;
   std::optional<int> digits_;  // their mass ratio depends on the base, which may be set later
   bool width_by_mass_ = false;
   std::map<std::string, std::string> origins_;  // by key
   std::string default_origin_;
-  std::vector<std::string> problems_;  // of text that could not be read
+  ProblemLines problems_;  // of text that could not be read
 };
 
 }  // namespace piblocks

@@ -138,10 +138,11 @@ std::int64_t film_frames(const Schedule& schedule) {
                   readable(frames), readable(to_integer(kMaxFrames))));
 }
 
-FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time) {
+FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time,
+                           const Rational& speed) {
   FrameTime alone{time};
   if (scene.view.shutter == 0) return alone;
-  Rational until = time + scene.time.speed * open_s(scene.view);
+  Rational until = time + speed * open_s(scene.view);
   if (has_span(scene, log)) {
     const Rational end = span_of(scene, log).to;
     if (time <= end) until = std::min(until, end);
@@ -154,6 +155,12 @@ Schedule::Schedule(std::vector<Stretch> stretches, Integer frame_count, Rational
     : stretches_(std::move(stretches)),
       frame_count_(std::move(frame_count)),
       frame_rate_(std::move(frame_rate)) {}
+
+Rational Schedule::speed() const {
+  const auto moves =
+      std::ranges::find_if(stretches_, [](const Stretch& s) { return s.speed != 0; });
+  return moves == stretches_.end() ? Rational(0) : Rational(abs(moves->speed) * moves->slowdown);
+}
 
 FrameTime Schedule::at(const Rational& video_s, const Rational& open_s) const {
   const auto next = std::ranges::upper_bound(stretches_, video_s, {}, &Stretch::video_s);

@@ -65,6 +65,9 @@ class Schedule {
   /// Frames of the whole video: all that begin before its end.
   const Integer& frame_count() const noexcept { return frame_count_; }
 
+  /// Simulation time per second of video where nothing slows it down; 0 if the picture never moves.
+  Rational speed() const;
+
   /// What is shown at `video_s` >= 0, and while a shutter is open from then on, `open_s` long. Past
   /// the end the last stretch goes on.
   FrameTime at(const Rational& video_s, const Rational& open_s = 0) const;
@@ -108,8 +111,9 @@ inline bool has_slow_motion(const Pacing& pacing) {
 /// How long each frame is exposed, in seconds of video.
 inline Rational open_s(const View& view) { return view.shutter / view.frame_rate; }
 
-/// What a picture shows if no video shows its time: time runs at scene.time.speed, and stops at the
+/// What a picture shows if no video shows its time: time runs at this speed, and stops at the
 /// scene's end.
-FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time);
+FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time,
+                           const Rational& speed);
 
 }  // namespace piblocks

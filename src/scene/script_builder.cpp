@@ -33,13 +33,14 @@ std::vector<std::string> lines_of(const Values& values) {
 Rational number_of(const Values& values) { return parse_rational(single(values)); }
 Split split_of(const Values& values) { return parse_split(single(values)); }
 
-/// Makes the segments of a storyboard from the tables of its file, and collects their problems.
+/// Makes the segments of a storyboard from the tables of its file.
 class StoryReader {
  public:
   /// @param path  of the file, named in messages.
   /// @param film  the values for all segments.
-  StoryReader(std::string path, const SceneDraft& film) : path_(std::move(path)), film_(film) {
-    const Scene scene = film.scene();
+  StoryReader(std::string path, const SceneDraft& film, ProblemLines& problems)
+      : path_(std::move(path)), film_(film), problems_(problems) {
+    const Scene scene = film.make(problems, true);
     story_ = {scene.view, scene.sound, scene.golden, {}};
   }
 
@@ -52,14 +53,13 @@ class StoryReader {
       const bool has_origin = origin != origins.end();
       // Text that could not be read has been reported already.
       if (!has_origin && find(table, key) != nullptr) continue;
-      problems_.push_back(
-          fmt::format("{}: {} {}", has_origin ? origin->second : segment.origin, key, reason));
+      problems_.add(has_origin ? origin->second : segment.origin,
+                    fmt::format("{} {}", key, reason));
     }
     story_.segments.push_back(std::move(segment));
   }
 
   const Storyboard& story() const { return story_; }
-  const std::vector<std::string>& problems() const { return problems_; }
 
  private:
   /// Origins of the keys that are not a scene's, by key.
@@ -117,10 +117,7 @@ class StoryReader {
     std::vector<SceneDraft> drafts = {common};
     if (const TomlEntry* compare = find(table, "compare")) drafts = compared(*compare, common);
     Scenes scenes;
-    for (const SceneDraft& draft : drafts) {
-      for (std::string& problem : draft.problems()) problems_.push_back(std::move(problem));
-      scenes.push_back(draft.scene());
-    }
+    for (const SceneDraft& draft : drafts) scenes.push_back(draft.make(problems_));
     return scenes;
   }
 
@@ -154,13 +151,13 @@ class StoryReader {
       target = parse(entry->values);
       origins.emplace(key, origin_of(entry->line));
     } catch (const UsageError& error) {
-      problems_.push_back(fmt::format("{}: {} = {}: {}", origin_of(entry->line), key,
-                                      joined(entry->values), error.what()));
+      problems_.add(path_, entry->line,
+                    fmt::format("{} = {}: {}", key, joined(entry->values), error.what()));
     }
   }
 
   void add_problem(const TomlEntry& entry, const std::string& text) {
-    problems_.push_back(fmt::format("{}: {}: {}", origin_of(entry.line), entry.key, text));
+    problems_.add(path_, entry.line, fmt::format("{}: {}", entry.key, text));
   }
 
   std::string origin_of(std::size_t line) const { return fmt::format("{}:{}", path_, line); }
@@ -168,7 +165,7 @@ class StoryReader {
   std::string path_;
   const SceneDraft& film_;
   Storyboard story_;
-  std::vector<std::string> problems_;
+  ProblemLines& problems_;
 };
 
 }  // namespace
@@ -178,14 +175,11 @@ struct ScriptBuilder::State {
   std::string path;                   // of the file, or what stands for it in messages
   std::vector<std::string> left_out;  // keys of the file
   std::vector<TomlTable> parts;
-  std::vector<std::string> problems;                          // of entries that are no parts
+  ProblemLines problems;                                      // of entries that are no parts
   std::vector<std::pair<std::string, std::string>> set_keys;  // origin and key, by set()
 
   void read(const std::string& origin, TomlTable root);
   bool leave_out(TomlEntry& entry) const;
-  void add_problem(std::size_t line, const std::string& text) {
-    problems.push_back(fmt::format("{}:{}: {}", path, line, text));
-  }
 };
 
 ScriptBuilder::ScriptBuilder() : state_(std::make_unique<State>()) {}
@@ -221,15 +215,15 @@ void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
     if (is_part && !entry.tables.empty()) {
       parts = std::move(entry.tables);
     } else if (is_part || entry.key.starts_with("part.")) {
-      add_problem(entry.line, "part: is written [[part]], once for each part");
+      problems.add(path, entry.line, "part: is written [[part]], once for each part");
     } else {
       common.entries.push_back(std::move(entry));
     }
   }
   film.read(path, common);
   if (parts.size() > kMaxSegments) {
-    add_problem(parts[kMaxSegments].line,
-                fmt::format("part: there must be at most {} of them", kMaxSegments));
+    problems.add(path, parts[kMaxSegments].line,
+                 fmt::format("part: there must be at most {} of them", kMaxSegments));
     parts.resize(kMaxSegments);
   }
 }
@@ -249,36 +243,28 @@ void ScriptBuilder::set(const std::string& origin, const std::string& key,
 
 Script ScriptBuilder::build() const {
   if (state_->parts.empty() && state_->problems.empty()) return build_scene();
-  std::vector<std::string> problems = state_->problems;
-  const auto add = [&](const std::vector<std::string>& more) {
-    // A problem of every part is reported once.
-    for (const std::string& problem : more) {
-      if (std::ranges::count(problems, problem) == 0) problems.push_back(problem);
-    }
-  };
+  ProblemLines problems = state_->problems;
   for (const auto& [origin, key] : state_->set_keys) {
     if (state_->parts.empty() || is_film_key(key)) continue;
-    add({fmt::format(
-        "{}: '{}' is a storyboard; put {} into it, for all parts or for one. Options can set "
-        "size, frame rate, theme, background and sound of the whole film",
-        origin, state_->path, key)});
+    problems.add(origin, fmt::format("'{}' is a storyboard; put {} into it, for all parts or for "
+                                     "one. Options can set size, frame rate, theme, background and "
+                                     "sound of the whole film",
+                                     state_->path, key));
   }
-  add(state_->film.problems(true));
-  StoryReader reader(state_->path, state_->film);
+  StoryReader reader(state_->path, state_->film, problems);
   for (const TomlTable& part : state_->parts) reader.read(part);
-  add(reader.problems());
-  if (!problems.empty()) throw SceneError(std::move(problems));
+  problems.require_none();
   return reader.story();
 }
 
 Scene ScriptBuilder::build_scene() const {
-  std::vector<std::string> problems = state_->problems;
+  ProblemLines problems = state_->problems;
   if (!state_->parts.empty()) {
-    problems.push_back(fmt::format("'{}' is a storyboard; a scene has no [[part]]", state_->path));
+    problems.add(state_->path, "is a storyboard; a scene has no [[part]]");
   }
-  for (std::string& problem : state_->film.problems()) problems.push_back(std::move(problem));
-  if (!problems.empty()) throw SceneError(std::move(problems));
-  return state_->film.scene();
+  Scene scene = state_->film.make(problems);
+  problems.require_none();
+  return scene;
 }
 
 }  // namespace piblocks

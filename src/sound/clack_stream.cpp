@@ -33,7 +33,7 @@ double ClackStream::SampleStretch::sample_at(const Time& t) const {
 
 ClackStream::ClackStream(const Timeline& log, std::span<const Stretch> stretches,
                          const Rational& duration_s, int rate_hz)
-    : log_(log) {
+    : log_(log), impulse_unit_(impulse_unit(log)) {
   add_first_instant(stretches, rate_hz);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& stretch = stretches[i];
@@ -135,7 +135,7 @@ void ClackStream::add_impacts(const Integer& first, const Integer& last, const P
     // If a count was rounded, the time may be just outside of the piece.
     const double sample =
         std::max(piece.begin, std::min(piece.end, stretch().sample_at(together->time)));
-    clacks.push_back({sample, kind, together->impulse, together->position});
+    clacks.push_back({sample, kind, together->impulse / impulse_unit_, together->position});
   }
 }
 

@@ -17,7 +17,7 @@ namespace piblocks {
 struct Clack {
   double sample = 0;  ///< samples since the film began, with a fraction
   CollisionKind kind = CollisionKind::blocks;
-  double impulse = 0;   ///< as Impact has it
+  double impulse = 0;   ///< as Impact has it, in impulse_unit()
   double position = 0;  ///< as Impact has it
 };
 
@@ -64,6 +64,7 @@ class ClackStream {
                    std::vector<Clack>& clacks) const;
 
   const Timeline& log_;
+  double impulse_unit_;
   std::vector<SampleStretch> stretches_;
   std::size_t current_ = 0;
   double sample_ = 0;

@@ -222,6 +222,22 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
 }
 
 /// From which time on the picture may be wrong is said in it, from that time on.
+/// Discs that touch when the scene begins collide then if they approach each other.
+TEST(BodyPictures, SeparationHasTheCollisionAtTheBeginning) {
+  const auto make = [](const char* speed, const char* from) {
+    ScriptBuilder builder;
+    builder.read_text("touching", fmt::format("[[body]]\nposition = [-2, 0]\nradius = 1\n"
+                                              "velocity = [{}, 0.5]\n[[body]]\nradius = 1\n"
+                                              "position = [0, 0]\n[time]\nfrom = {}\nto = 3\n"
+                                              "[show]\npanels = ['separation']\n",
+                                              speed, from));
+    return Film(builder.build()).frame_count();
+  };
+  EXPECT_GT(make("1", "0"), 0);
+  EXPECT_THROW(make("-1", "0"), UsageError) << "they part";
+  EXPECT_THROW(make("1", "0.01"), UsageError) << "they have met before";
+}
+
 TEST(BodyPictures, SayWhatIsNotCertain) {
   const Film film(read("view.theme = 'lecture'\nview.fps = 1\ntime.allow-uncertain = true\n" +
                        testing_support::uncertain_discs()));

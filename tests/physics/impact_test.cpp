@@ -2,11 +2,13 @@
 #include "physics/impact.hpp"
 
 #include <gtest/gtest.h>
+#include <piblocks/bodies.hpp>
 #include <piblocks/run.hpp>
 
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/oracle.hpp"
@@ -208,6 +210,33 @@ TEST(CountNear, CountsAllOfACornerAtOnce) {
   const Rational corner = corner_of(system)->time;
   EXPECT_EQ(count_near(*log, to_time(corner)), log->size());
   EXPECT_EQ(count_near(*log, to_time(corner - Rational(1, 1000000))), 0);
+}
+
+/// Of bodies that are two blocks by other names, mirrored and not.
+TEST(Impact, SumsThoseOfBodiesInClosedForm) {
+  for (const int side : {1, -1}) {
+    const Rational mass = 1'000'000;
+    const BodySystem system{
+        1,
+        {{mass, {side * 5}, {-side * 2}, 1}, {Rational(3), {side * 2}, {side * Rational(1, 8)}, 1}},
+        {{side > 0 ? "left" : "right", {0}, {side}}}};
+    const auto log = make_body_log(system, std::nullopt);
+    ASSERT_GT(log->size(), 1000);
+    for (const CollisionKind kind : kKinds) {
+      for (const auto& [first, last] : {std::pair(1, 1001), std::pair(500, 502)}) {
+        double impulse = 0;
+        for (Integer index = first; index <= last; ++index) {
+          if (const auto one = impact(*log, kind, index, index)) impulse += one->impulse;
+        }
+        const auto together = impact(*log, kind, first, last);
+        ASSERT_TRUE(together);
+        EXPECT_NEAR(together->impulse, impulse, 1e-11 * impulse);
+        EXPECT_GT(side * together->position, 0);
+        EXPECT_GE(together->time.hi, log->collision(first).time.hi);
+        EXPECT_LE(together->time.hi, log->collision(last).time.hi);
+      }
+    }
+  }
 }
 
 }  // namespace

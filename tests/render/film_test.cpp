@@ -12,6 +12,7 @@
 #include <fstream>
 
 #include "draw/canvas.hpp"
+#include "render/renderings.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -326,6 +327,32 @@ TEST_F(FilmTest, AStillIsTheFrameOfASecondOfTheVideo) {
   EXPECT_THROW(still(Rational(-1)), UsageError);
   EXPECT_THROW(still(Rational(78, 10)), UsageError);
   EXPECT_THROW(still(Instant::collision(1)), UsageError);
+}
+
+/// The speed decides how far trails go back, whether it is named or follows from a duration.
+TEST(Film, IsTheSameWithADurationAsWithTheSpeedThatItGives) {
+  const auto make = [](const std::vector<std::pair<const char*, const char*>>& keys) {
+    ScriptBuilder builder;
+    builder.read_text("discs",
+                      "[[body]]\nposition = [0, 0]\nradius = 1\nvelocity = [1, 2]\n"
+                      "[[body]]\nposition = [5, 4]\nradius = 1\n[view]\nfps = 5\n"
+                      "size = '320x180'\n[time]\nto = 6\n[show]\noverlays = ['trails']\n");
+    for (const auto& [key, text] : keys) builder.set("test", key, text);
+    return builder.build_scene();
+  };
+  const Scene fast = make({{"time.speed", "2"}});
+  const Scene slow = make({{"time.speed", "1/2"}});
+  Scene in_3_s = make({{"time.duration", "3"}});
+  in_3_s.time.speed = 7;  // is not used
+  const Film film(fast);
+  const Film same(in_3_s);
+  ASSERT_EQ(film.frame_count(), same.frame_count());
+  for (std::int64_t k = 0; k < film.frame_count(); ++k)
+    ASSERT_EQ(film.frame(k), same.frame(k)) << k;
+  const Instant end(Rational(5));
+  EXPECT_EQ(still_picture(fast, end), still_picture(in_3_s, end));
+  EXPECT_FALSE(still_picture(fast, end) == still_picture(slow, end))
+      << "trails depend on the speed";
 }
 
 }  // namespace

@@ -58,6 +58,15 @@ TEST_F(BodiesFile, BodiesAreOfOneKind) {
                  std::string("1: body 1") + two);
 }
 
+TEST_F(BodiesFile, ManyProblemsAreCounted) {
+  std::string text;
+  for (int i = 0; i < 300; ++i) text += "[[body]]\nposition = [0, 0]\n";
+  const std::vector<std::string> found = problems(text);
+  ASSERT_EQ(found.size(), UsageError::kMostProblems + 1);
+  EXPECT_EQ(found.front(), path_ + ":3: body 2.position = [0, 0]: overlaps body 1");
+  EXPECT_EQ(found.back(), "and 199 more problems");
+}
+
 TEST_F(BodiesFile, BodiesHaveRoom) {
   const std::string blocks = "[[body]]\nposition = 0\n[[body]]\nposition = ";
   expect_problem(blocks + "'3/4'\n", "3: body 2.position = 3/4: overlaps body 1 by 1/4");

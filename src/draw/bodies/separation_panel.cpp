@@ -36,28 +36,29 @@ struct Meeting {
   std::size_t first = 0;
   std::size_t second = 0;
   Parabola before;
-  double after_from = 0;
 };
+
+/// The number of the first collision that is not before the time.
+Integer first_from(const BodyLog& log, const Rational& time) {
+  Integer first = log.count_at(time) + 1;
+  while (first > 1 && to_rational(log.collision(first - 1).time) >= time) --first;
+  return first;
+}
 
 Meeting first_meeting(const BodyLog& log, const Span& span) {
   const std::size_t bodies = log.system().bodies.size();
-  for (Integer k = log.count_at(span.from) + 1; k <= log.size(); ++k) {
+  for (Integer k = first_from(log, span.from); k <= log.size(); ++k) {
     const BodyCollision c = log.collision(k);
     if (c.second >= bodies) continue;
-    const Rational time = to_rational(c.time);
-    // All that happened before it: both fly freely from then on.
-    const Rational since =
-        k > 1 ? std::max(to_rational(log.collision(k - 1).time), span.from) : span.from;
-    const BodiesState flying = log.state_at(std::min(since, time));
-    const BodyMotion& one = flying.bodies[c.first];
-    const BodyMotion& other = flying.bodies[c.second];
-    const double flight = to_double(time - std::min(since, time));
     Meeting meeting{c.first, c.second, {c.time.hi, {}, {}}};
+    auto& [touch, apart, speed] = meeting.before;
     for (const std::size_t axis : {0U, 1U}) {
-      meeting.before.speed.at(axis) = other.velocity.at(axis) - one.velocity.at(axis);
-      meeting.before.apart.at(axis) =
-          other.position.at(axis) - one.position.at(axis) + meeting.before.speed.at(axis) * flight;
+      apart.at(axis) = c.second_after.position.at(axis) - c.first_after.position.at(axis);
+      speed.at(axis) = c.second_after.velocity.at(axis) - c.first_after.velocity.at(axis);
     }
+    // It has reversed the speed along the line between the centres.
+    const double reversed = 2 * dot(speed, apart) / dot(apart, apart);
+    for (const std::size_t axis : {0U, 1U}) speed.at(axis) -= reversed * apart.at(axis);
     return meeting;
   }
   throw UsageError(
@@ -157,8 +158,7 @@ class SeparationPanel {
     const auto square = [&](double time) {
       return square_of(log.state_at(Rational(std::clamp(time, from, to))).bodies);
     };
-    add_lines(
-        from, meeting_.before.touch, [&](double t) { return meeting_.before.at(t); }, add);
+    if (meeting_.before.touch > from) add_lines(from, meeting_.before.touch, square, add);
     add_lines(meeting_.before.touch, to, square, add);
   }
 

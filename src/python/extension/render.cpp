@@ -125,7 +125,7 @@ void sheet_file(const BoundScript& bound, const std::string& output, const Optio
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     const Scene& scene = scene_of(bound, "sheet");
     check_still(bound, output, "sheet");
-    render_sheet(scene, cli::sheet_instants(scene, BoundOptions(texts)), output, {}, stop);
+    render_sheet(scene, cli::sheet_instants(BoundOptions(texts)), output, {}, stop);
   });
 }
 
