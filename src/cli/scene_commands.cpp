@@ -86,8 +86,10 @@ void run_still(const Command& options, const SceneOptions& scene_options) {
   const Script script = scene_options.script();
   scene_options.check_output(script);
   const StopOnSignals signals;
-  render_still(script, *options.value("--at", parse_instant), output_of(options), signals.token());
+  const std::string output = output_of(options);
+  render_still(script, *options.value("--at", parse_instant), output, signals.token());
   note_convention(script);
+  if (has_ending(output, ".svg") || has_ending(output, ".pdf")) note_sharp(script);
 }
 
 void run_sheet(const Command& options, const SceneOptions& scene_options) {
@@ -102,6 +104,7 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
       scene, instants, output_of(options),
       [&](const Progress& progress) { report.update(progress); }, signals.token());
   note_convention(scene);
+  note_sharp(scene);
 }
 
 }  // namespace

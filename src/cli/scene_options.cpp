@@ -202,6 +202,13 @@ void note_convention(const Script& script) {
   for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
 }
 
+void note_sharp(const Script& script) {
+  const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };
+  if (std::ranges::none_of(scenes_of(script), is_blurred)) return;
+  say("piblocks: note: SVG, PDF and sheets have no motion blur: what moves is shown sharp, at the "
+      "instant\n");
+}
+
 void note_ties(const RunLog& run, const Integer& last) {
   if (const auto note = tie_note(run, last)) say("piblocks: note: {}\n", *note);
 }

@@ -75,6 +75,8 @@ void add_engine(Command& command);
 /// happen at once: their number then depends on a convention.
 /// @throws SceneError if problems_of() of the system is not empty.
 void note_convention(const Script& script);
+/// Says that a picture without motion blur is asked for with it.
+void note_sharp(const Script& script);
 /// Says on standard error that the order of pairs decided what happened up to this collision, if it
 /// did.
 void note_ties(const RunLog& run, const Integer& last);

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "draw/exposed_items.hpp"
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 
@@ -37,10 +37,6 @@ inline Cover cover_of(double pixel, double begin, double length, double line_px)
   return {overlap(pixel, begin, begin + length),
           overlap(pixel, begin + line_px, begin + length - line_px)};
 }
-
-/// Places at which a block is looked at while it moves by a pixel. The error falls with the square
-/// of their number, and matters less if the block is in each pixel for less time.
-inline double samples_per_px(double way_px) { return way_px <= 64 ? 16 : way_px <= 512 ? 8 : 4; }
 
 /// What a block covers of a pixel.
 struct PixelCover {
@@ -92,10 +88,6 @@ class BlockCover {
     if (block_.is_still()) {
       const Cover still = of_column(column, block_.bounds.x);
       if (still.outer > 0) shares_.push_back({still, 1});
-    } else if (block_.dwells.empty()) {
-      for (const BlockPath& path : block_.paths) {
-        each_part(column, [&](const Part& part) { add_path(column, path, part); });
-      }
     } else if (block_.dwells.back().x >= column - block_.bounds.width &&
                block_.dwells.front().x < column + 1) {
       each_part(column, [&](const Part& part) { add_dwells(column, part); });
@@ -144,26 +136,6 @@ class BlockCover {
     }
     for (std::size_t i = begin; i < block_.dwells.size() && block_.dwells[i].x < part.to; ++i) {
       shares_.push_back({of_column(column, block_.dwells[i].x), block_.dwells[i].share});
-    }
-  }
-
-  void add_path(double column, const BlockPath& path, const Part& part) {
-    const double low = std::min(path.from, path.to);
-    const double high = std::max(path.from, path.to);
-    if (low == high) {
-      if (part.from <= low && low < part.to) {
-        shares_.push_back({of_column(column, low), path.share});
-      }
-      return;
-    }
-    const double from = std::max(part.from, low);
-    const double to = std::min(part.to, high);
-    if (!(from < to)) return;
-    const double share = path.share * ((to - from) / (high - low));
-    const double count = part.is_alike ? 1 : std::ceil((to - from) * samples_per_px(high - low));
-    for (double i = 0; i < count; ++i) {
-      const double x = from + (to - from) * (i + 0.5) / count;
-      shares_.push_back({of_column(column, x), share / count});
     }
   }
 

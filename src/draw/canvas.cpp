@@ -213,11 +213,14 @@ Canvas::Canvas(int width_px, int height_px, Background background)
 
 Canvas::~Canvas() = default;
 
+void Canvas::listen(std::stop_token stop) { pixels_->painter.listen(std::move(stop)); }
+
 void Canvas::paint(const DrawList& list) {
   assert(list.width_px == view().width_px && list.height_px == view().height_px);
   assert(list.background || view().has_alpha);
   pixels_->region.clear();
   pixels_->region.add({0, 0, list.width_px, list.height_px});
+  pixels_->shown.reset();  // if painting is broken off, nobody knows what is there
   pixels_->paint(list);
   pixels_->shown = list;
 }
@@ -232,6 +235,7 @@ std::span<const PixelRect> Canvas::update(DrawList list) {
   };
   pixels_->region.clear();
   add_changes(*pixels_->shown, list, width_em, pixels_->region);
+  pixels_->shown.reset();
   pixels_->paint(list);
   pixels_->shown = std::move(list);
   return pixels_->rects;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
+  /// From now on paint() and update() throw Interrupted soon after the token asks for it.
+  void listen(std::stop_token stop);
   /// Replaces the whole picture. @throws DrawError
   /// @param list  of the canvas's size; has a background unless the canvas is transparent
   void paint(const DrawList& list);
@@ -43,9 +46,10 @@ class Canvas {
 /// The picture in opaque pixels, painted at once: slanted edges come out slightly different from
 /// those of a Canvas. @throws DrawError
 Image draw_pixels(const DrawList& list);
-/// The picture as an SVG file: text as outlines, one unit a pixel.
+/// The picture as an SVG file: text as outlines, one unit a pixel. What is exposed is shown at the
+/// picture's instant.
 std::vector<std::uint8_t> draw_svg(const DrawList& list);
-/// The picture as a PDF file of one page, one point a pixel; text stays text.
+/// The same as a PDF file of one page, one point a pixel; text stays text.
 std::vector<std::uint8_t> draw_pdf(const DrawList& list);
 
 /// Name and version of each drawing library that is linked, such as "cairo 1.16.0", and the font.

@@ -108,8 +108,8 @@ class Comparison {
         return compare(*a, std::get<GroupItem>(after));
       if (const auto* a = std::get_if<ExposedBlocksItem>(&before))
         return compare(*a, std::get<ExposedBlocksItem>(after));
-      if (const auto* a = std::get_if<ExposedDiscsItem>(&before))
-        return compare(*a, std::get<ExposedDiscsItem>(after));
+      if (const auto* a = std::get_if<MovingShapesItem>(&before))
+        return compare(*a, std::get<MovingShapesItem>(after));
     }
     add(before);
     add(after);
@@ -169,20 +169,14 @@ class Comparison {
   void compare(const ExposedBlocksItem& before, const ExposedBlocksItem& after) {
     const Extent a = extent_of(before, width_em_);
     const Extent b = extent_of(after, width_em_);
-    if (before.blocks.size() != after.blocks.size()) {
-      add(a);
-      add(b);
-      return;
-    }
     const double top = std::min(a.top, b.top);
     const double bottom = std::max(a.bottom, b.bottom);
-    for (std::size_t i = 0; i < after.blocks.size(); ++i) {
-      compare(before.blocks[i], after.blocks[i], top, bottom);
-    }
+    compare(before.behind, after.behind, top, bottom);
+    compare(before.front, after.front, top, bottom);
     if (before.contacts == after.contacts) return;
     for (const ExposedBlocksItem* item : {&before, &after}) {
       if (item->contacts.empty()) continue;
-      add({item->contacts.front().right_x, top, item->contacts.back().right_x + 1, bottom});
+      add({item->contacts.front().behind_x, top, item->contacts.back().behind_x + 1, bottom});
     }
   }
 
@@ -204,12 +198,16 @@ class Comparison {
     add({from + width - line, top, to, bottom});
   }
 
-  void compare(const ExposedDiscsItem& before, const ExposedDiscsItem& after) {
-    for (std::size_t i = 0; i < std::max(before.discs.size(), after.discs.size()); ++i) {
-      const bool is_in_both = i < before.discs.size() && i < after.discs.size();
-      if (is_in_both && before.discs[i] == after.discs[i]) continue;
-      if (i < before.discs.size()) add(extent_of(before.discs[i]));
-      if (i < after.discs.size()) add(extent_of(after.discs[i]));
+  /// All shapes are looked at in the same moments.
+  void compare(const MovingShapesItem& before, const MovingShapesItem& after) {
+    const auto& a = before.shapes;
+    const auto& b = after.shapes;
+    const auto moments = [](const auto& shapes) { return shapes.front().places.view().size(); };
+    const bool are_alike = moments(a) == moments(b);
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      if (are_alike && i < a.size() && i < b.size() && a[i] == b[i]) continue;
+      if (i < a.size()) add(extent_of(a[i]));
+      if (i < b.size()) add(extent_of(b[i]));
     }
   }
 

@@ -16,7 +16,6 @@
 #include <variant>
 #include <vector>
 
-#include "draw/exposed_items.hpp"
 #include "draw/item_parts.hpp"
 
 namespace piblocks {
@@ -97,6 +96,70 @@ struct DiscItem {
   bool operator==(const DiscItem&) const = default;
 };
 
+/// What moves less is taken to stay. Far below what a pixel shows, far above roundings.
+inline constexpr double kStill_px = 1e-6;
+
+/// A place of a block's left edge, and for which share of the exposure it is there.
+struct Dwell {
+  double x = 0;
+  double share = 0;
+  bool operator==(const Dwell&) const = default;
+};
+
+/// Rows across a block.
+struct Bar {
+  double y = 0;
+  double height = 0;
+  bool operator==(const Bar&) const = default;
+};
+
+/// A filled rectangle that moves sideways while the picture is exposed.
+struct ExposedBlock {
+  Rectangle bounds;  ///< at the picture's instant
+  Color fill;
+  Stroke stroke;          ///< solid
+  std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
+  /// From left to right; none if it stays. Shares add up to 1 less those outside the frame.
+  std::vector<Dwell> dwells = {};
+
+  bool is_still() const { return dwells.empty(); }
+  bool operator==(const ExposedBlock&) const = default;
+};
+
+/// A share of an exposure during which two blocks are less than a pixel apart. Both places are left
+/// edges.
+struct TouchingBlocks {
+  double behind_x = 0;
+  double front_x = 0;
+  double share = 0;
+  bool operator==(const TouchingBlocks&) const = default;
+};
+
+/// Two blocks, exposed, with the exact time for which each is where: the mean, in linear light, of
+/// the pictures that rectangles would make at each instant. A vector file shows the instant.
+struct ExposedBlocksItem {
+  ItemId id = ItemId::red_block;
+  ExposedBlock behind;  ///< they never overlap, but may share a column of pixels
+  ExposedBlock front;
+  std::vector<TouchingBlocks> contacts;  ///< in the order of behind_x
+  bool operator==(const ExposedBlocksItem&) const = default;
+};
+
+/// What moves while a picture is exposed.
+struct MovingShape {
+  std::variant<ExposedBlock, DiscItem> shape;  ///< at the picture's instant; without dwells
+  Points places;  ///< of the block's upper left corner or the disc's centre, at each moment
+  bool operator==(const MovingShape&) const = default;
+};
+
+/// Any shapes, exposed: the mean, in linear light, of their pictures at moments that follow each
+/// other at equal times. A vector file shows the instant.
+struct MovingShapesItem {
+  ItemId id = ItemId::red_block;
+  std::vector<MovingShape> shapes;  ///< from back to front, with equally many places; none overlap
+  bool operator==(const MovingShapesItem&) const = default;
+};
+
 /// An image, scaled to its bounds. Equal if the image is the same object.
 struct ImageItem {
   ItemId id = ItemId::wall;
@@ -132,7 +195,7 @@ struct GroupItem {
 };
 
 using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiscItem, ImageItem, PlateItem,
-                              GroupItem, ExposedBlocksItem, ExposedDiscsItem>;
+                              GroupItem, ExposedBlocksItem, MovingShapesItem>;
 
 struct Plate {
   std::vector<DrawItem> items;  ///< from back to front; none that is exposed

@@ -62,33 +62,7 @@ class DwellTable {
     }
   }
 
-  /// The same for even motion over a range, at the same cost wherever its ends are.
-  void add_even(double share, const Travel& range) {
-    const auto area = [&](double x) { return range.area_below(x); };
-    const std::size_t begin = index(std::floor(range.from / spacing_));
-    const std::size_t end = index(std::ceil(range.to / spacing_)) + 1;
-    if (end < begin + 8) return add(share, range, area);
-    if (slopes_.empty()) slopes_.resize(shares_.size());
-    // Away from its ends the second difference is the same everywhere.
-    const double even = share * spacing_ / (range.to - range.from);
-    slopes_[begin + 3] += even;
-    slopes_[end - 3] -= even;
-    for (const std::size_t first : {begin, end - 3}) {
-      for (std::size_t i = first; i < first + 3; ++i) {
-        const double here = area(place(i));
-        shares_[i] +=
-            share * ((area(place(i + 1)) - here) - (here - area(place(i - 1)))) / spacing_;
-      }
-    }
-  }
-
   std::vector<Dwell> dwells() {
-    double slope = 0;
-    for (std::size_t i = 0; i < slopes_.size(); ++i) {
-      slope += slopes_[i];
-      shares_[i] += slope;
-    }
-    slopes_.clear();
     std::vector<Dwell> dwells;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
       // Less is what rounding leaves of equal areas.
@@ -106,32 +80,13 @@ class DwellTable {
   double spacing_;
   double first_;
   std::vector<double> shares_;
-  std::vector<double> slopes_;  // differences of what even motion adds to the shares
 };
 
-const Travel& range_of(const Exposure& exposure, BlockName block) { return exposure.range(block); }
-const Travel& range_of(const BodyExposure& exposure, std::size_t body) {
-  return exposure.ranges.at(body);
-}
-
-/// Calls visit(share, path) for each piece of a block's motion.
-template <typename Visit>
-void each_way(const Exposure& exposure, BlockName block, const Visit& visit) {
-  for (const UniformPiece& piece : exposure.pieces) visit(piece.share, piece.of(block));
-}
-template <typename Visit>
-void each_way(const BodyExposure& exposure, std::size_t body, const Visit& visit) {
-  for (const BodyPiece& piece : exposure.pieces.at(body)) {
-    visit(piece.share(), Travel{piece.from[0], piece.to[0]});
-  }
-}
-
-/// @tparam Block  what names a block in the exposures
-template <typename Block, typename Exposures>
-std::vector<Dwell> dwells_of(Block block, const ToPixels& to_px, const Exposures& exposures) {
+std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
+                             std::span<const WeightedExposure> exposures) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Travel range{kInfinity, -kInfinity};  // of the block's left edge
-  for (const auto& [share, exposure] : exposures) range.include(to_px(range_of(exposure, block)));
+  for (const auto& [share, exposure] : exposures) range.include(to_px(exposure.range(block)));
   if (!(range.to - range.from > kStill_px)) return {};
   range.from = std::max(range.from, -to_px.block_px - kMargin_px);
   range.to = std::min(range.to, to_px.visible_right_px + kMargin_px);
@@ -139,15 +94,15 @@ std::vector<Dwell> dwells_of(Block block, const ToPixels& to_px, const Exposures
   DwellTable table(range, spacing_px(range.to - range.from));
   for (const auto& [weight, exposure] : exposures) {
     if (const auto& area_below = exposure.area_below) {
-      table.add(weight, to_px(range_of(exposure, block)),
+      table.add(weight, to_px(exposure.range(block)),
                 [&](double x) { return area_below(block, to_px.back(x)) * to_px.scale; });
       continue;
     }
-    each_way(exposure, block, [&, weight = weight](double share, const Travel& of_centre) {
-      const Travel path = to_px(of_centre);
+    for (const UniformPiece& piece : exposure.pieces) {
+      const Travel path = to_px(piece.of(block));
       const Travel rising{std::min(path.from, path.to), std::max(path.from, path.to)};
-      table.add(weight * share, rising, [&](double x) { return rising.area_below(x); });
-    });
+      table.add(weight * piece.share, rising, [&](double x) { return rising.area_below(x); });
+    }
   }
   return table.dwells();
 }
@@ -181,60 +136,8 @@ void add_contacts(const EvenMotion& motion, std::vector<TouchingBlocks>& contact
                                  left.from + (left.to - left.from) * at,
                                  share * (end - begin) / count};
     // Only if both reach into one pixel.
-    if (contact.left_x + left_width > std::floor(contact.right_x)) contacts.push_back(contact);
+    if (contact.front_x + left_width > std::floor(contact.behind_x)) contacts.push_back(contact);
   }
-}
-
-/// Left edges of a block from which it is seen, and somewhat beyond.
-Travel seen_px(const ToPixels& to_px) {
-  return {-to_px.block_px - kMargin_px, to_px.visible_right_px + kMargin_px};
-}
-
-/// The paths of a body's left edge; nothing if it stays, or is never seen. While it is out of sight
-/// it waits beside the frame.
-std::vector<BlockPath> paths_of(std::size_t body, const ToPixels& to_px,
-                                std::span<const WeightedBodyExposure> exposures) {
-  const Travel seen = seen_px(to_px);
-  std::vector<BlockPath> paths;
-  bool is_seen = false;
-  const auto add = [&](const BlockPath& path) {
-    const bool is_left = std::max(path.from, path.to) <= seen.from;
-    const bool is_right = std::min(path.from, path.to) >= seen.to;
-    if (!is_left && !is_right) {
-      is_seen = true;
-      paths.push_back(path);
-      return;
-    }
-    const double beside = is_left ? seen.from : seen.to;
-    const BlockPath waiting{beside, beside, path.share};
-    if (!paths.empty() && paths.back().from == beside && paths.back().to == beside) {
-      paths.back().share += path.share;
-    } else {
-      paths.push_back(waiting);
-    }
-  };
-  Travel range = to_px(range_of(exposures.front().exposure, body));
-  for (const auto& [weight, exposure] : exposures) {
-    range.include(to_px(range_of(exposure, body)));
-    each_way(exposure, body, [&, weight = weight](double share, const Travel& of_centre) {
-      const Travel path = to_px(of_centre);
-      add({path.from, path.to, weight * share});
-    });
-  }
-  if (!is_seen || !(range.to - range.from > kStill_px)) paths.clear();
-  return paths;
-}
-
-/// The same summed up, where there are so many paths that this is less.
-std::vector<Dwell> dwells_of(const std::vector<BlockPath>& paths, const Travel& seen) {
-  Travel range{paths.front().from, paths.front().from};
-  for (const BlockPath& path : paths) range.include({path.from, path.to});
-  range = {std::max(range.from, seen.from), std::min(range.to, seen.to)};
-  DwellTable table(range, spacing_px(range.to - range.from));
-  for (const BlockPath& path : paths) {
-    table.add_even(path.share, {std::min(path.from, path.to), std::max(path.from, path.to)});
-  }
-  return table.dwells();
 }
 
 }  // namespace
@@ -246,8 +149,8 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
   red.dwells = dwells_of(BlockName::red, red_px, exposures);
   blue.dwells = dwells_of(BlockName::blue, blue_px, exposures);
   const double blue_width = blue.bounds.width;
-  ExposedBlocksItem item{ItemId::red_block, {std::move(red), std::move(blue)}, {}};
-  if (std::ranges::all_of(item.blocks, &ExposedBlock::is_still)) return item;
+  ExposedBlocksItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
+  if (item.behind.is_still() && item.front.is_still()) return item;
   for (const WeightedExposure& weighted : exposures) {
     for (const UniformPiece& piece : weighted.exposure.pieces) {
       add_contacts({.right = red_px(piece.red),
@@ -257,28 +160,8 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
                    item.contacts);
     }
   }
-  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::behind_x);
   return item;
-}
-
-ExposedBlocksItem exposed_blocks(std::vector<ExposedBlock> blocks, const AxisPlace& axis,
-                                 std::span<const WeightedBodyExposure> exposures) {
-  constexpr std::size_t kMostWays = 8;
-  const bool is_summed = std::ranges::any_of(exposures, [](const WeightedBodyExposure& weighted) {
-    return bool(weighted.exposure.area_below);
-  });
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const ToPixels to_px(axis, blocks[i]);
-    std::vector<BlockPath> paths = paths_of(i, to_px, exposures);
-    if (paths.empty()) continue;
-    if (is_summed) {
-      blocks[i].dwells = dwells_of(i, to_px, exposures);
-    } else if (paths.size() > kMostWays) {
-      blocks[i].dwells = dwells_of(paths, seen_px(to_px));
-    }
-    blocks[i].paths = std::move(paths);
-  }
-  return {ItemId::red_block, std::move(blocks), {}};
 }
 
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items) {

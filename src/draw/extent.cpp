@@ -19,17 +19,14 @@ constexpr double kOverhang = 0.22;
 /// How far a centred line reaches beyond the outline it is drawn on.
 double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }
 
-/// Of at least one.
-template <typename Exposed>
-Extent around(const std::vector<Exposed>& all) {
-  Extent extent = extent_of(all.front());
-  for (const Exposed& one : all) {
-    const auto [left, top, right, bottom] = extent_of(one);
-    extent = {std::min(extent.left, left), std::min(extent.top, top), std::max(extent.right, right),
-              std::max(extent.bottom, bottom)};
-  }
-  return extent;
+/// Around both.
+Extent around(const Extent& a, const Extent& b) {
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
+          std::max(a.bottom, b.bottom)};
 }
+
+/// Beyond its centre.
+double reach_of(const DiscItem& disc) { return disc.radius + reach_of(disc.stroke); }
 
 struct ExtentOf {
   const MeasureText& width_em;
@@ -42,10 +39,12 @@ struct ExtentOf {
   }
   Extent operator()(const DiscItem& disc) const {
     return Extent{disc.centre.x, disc.centre.y, disc.centre.x, disc.centre.y}.grown(
-        disc.radius + reach_of(disc.stroke) + kDiscStep_px / 2);
+        reach_of(disc) + kDiscStep_px / 2);
   }
-  Extent operator()(const ExposedBlocksItem& item) const { return around(item.blocks); }
-  Extent operator()(const ExposedDiscsItem& item) const { return around(item.discs); }
+  Extent operator()(const ExposedBlocksItem& item) const {
+    return around(extent_of(item.behind), extent_of(item.front));
+  }
+  Extent operator()(const MovingShapesItem& item) const { return extent_of(item); }
   /// The line of a rectangle is inside its bounds.
   Extent operator()(const auto& item) const { return extent_of(item.bounds); }
 };
@@ -94,30 +93,25 @@ Extent extent_of(const ExposedBlock& block) {
   if (!block.dwells.empty()) {
     extent.left = block.dwells.front().x;
     extent.right = block.dwells.back().x + block.bounds.width;
-  } else if (!block.paths.empty()) {
-    extent.left = extent.right = block.paths.front().from;
-    for (const BlockPath& path : block.paths) {
-      const auto [left, right] = std::minmax({extent.left, path.from, path.to, extent.right});
-      extent.left = left;
-      extent.right = right;
-    }
-    extent.right += block.bounds.width;
   }
   return extent;
 }
 
-Extent extent_of(const ExposedDisc& disc) {
-  const Point& first = disc.paths.front().from;
-  Extent extent{first.x, first.y, first.x, first.y};
-  for (const DiscPath& path : disc.paths) {
-    for (const Point& end : {path.from, path.to}) {
-      extent.left = std::min(extent.left, end.x);
-      extent.top = std::min(extent.top, end.y);
-      extent.right = std::max(extent.right, end.x);
-      extent.bottom = std::max(extent.bottom, end.y);
-    }
+Extent extent_of(const MovingShape& moving) {
+  // A small disc is painted wider than it is.
+  constexpr double kSmall_px = 1;
+  const Extent places = extent_of(moving.places.bounds());
+  if (const auto* disc = std::get_if<DiscItem>(&moving.shape)) {
+    return places.grown(reach_of(*disc) + kSmall_px);
   }
-  return extent.grown(disc.radius + kSoftEdge_px);
+  const Rectangle& bounds = std::get<ExposedBlock>(moving.shape).bounds;
+  return {places.left, bounds.y, places.right + bounds.width, bounds.y + bounds.height};
+}
+
+Extent extent_of(const MovingShapesItem& item) {
+  Extent extent = extent_of(item.shapes.front());
+  for (const MovingShape& moving : item.shapes) extent = around(extent, extent_of(moving));
+  return extent;
 }
 
 Extent extent_of(const TextItem& text, double left_em, double right_em) {
@@ -170,20 +164,20 @@ PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area) {
   int right = area.x_px;
   int top = area.y_px + area.height_px;
   int bottom = area.y_px;
-  for (const ExposedBlock& block : item.blocks) {
-    const PixelRect pixels = pixels_of(extent_of(block), area);
+  for (const ExposedBlock* block : {&item.behind, &item.front}) {
+    const PixelRect pixels = pixels_of(extent_of(*block), area);
     // Where one block moves, the others are painted with it.
     top = std::min(top, pixels.y_px);
     bottom = std::max(bottom, pixels.y_px + pixels.height_px);
-    if (block.is_still() || pixels.width_px <= 0) continue;
+    if (block->is_still() || pixels.width_px <= 0) continue;
     left = std::min(left, pixels.x_px);
     right = std::max(right, pixels.x_px + pixels.width_px);
   }
   return {left, top, std::max(0, right - left), bottom - top};
 }
 
-PixelRect moving_area(const ExposedDiscsItem& item, const PixelRect& area) {
-  return pixels_of(around(item.discs), area);
+PixelRect moving_area(const MovingShapesItem& item, const PixelRect& area) {
+  return pixels_of(extent_of(item), area);
 }
 
 bool reaches(const DrawItem& item, const PixelRect& rect) {

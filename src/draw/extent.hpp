@@ -26,9 +26,6 @@ struct Extent {
 /// An item may paint so far out of its extent: Cairo rounds coordinates and sums to 1/256 pixel.
 inline constexpr double kRounding_px = 1.0 / 64;
 
-/// The edge of a disc that moves fades over so much on both sides.
-inline constexpr double kSoftEdge_px = 0.5;
-
 /// Small discs are painted at whole multiples of this.
 inline constexpr double kDiscStep_px = 1.0 / 8;
 
@@ -41,7 +38,8 @@ using MeasureText = std::function<double(Face face, std::string_view utf8)>;
 
 Extent extent_of(const Rectangle& rectangle);
 Extent extent_of(const ExposedBlock& block);
-Extent extent_of(const ExposedDisc& disc);
+Extent extent_of(const MovingShapesItem& item);
+Extent extent_of(const MovingShape& shape);
 /// The characters of a line of text between two distances from its origin.
 Extent extent_of(const TextItem& text, double left_em, double right_em);
 Extent extent_of(const DrawItem& item, const MeasureText& width_em);
@@ -53,9 +51,9 @@ std::vector<Extent> extents_of(const PathItem& path);
 /// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.
 PixelRect pixels_of(const Extent& extent, const PixelRect& area);
 
-/// The pixels of an area that a moving block or disc reaches into; of no width if nothing moves.
+/// The pixels of an area that a moving block or shape reaches into; of no width if nothing moves.
 PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area);
-PixelRect moving_area(const ExposedDiscsItem& item, const PixelRect& area);
+PixelRect moving_area(const MovingShapesItem& item, const PixelRect& area);
 
 /// False only if the item has certainly painted nothing into the rectangle.
 bool reaches(const DrawItem& item, const PixelRect& rect);

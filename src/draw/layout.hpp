@@ -156,9 +156,6 @@ struct AxisPlace {
 /// The blocks while the picture is exposed. @param red, blue  at its instant, without dwells
 ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const AxisPlace& axis,
                                  std::span<const WeightedExposure> exposures);
-/// The same of bodies on a line. @param blocks  in the order of the exposures' bodies
-ExposedBlocksItem exposed_blocks(std::vector<ExposedBlock> blocks, const AxisPlace& axis,
-                                 std::span<const WeightedBodyExposure> exposures);
 
 /// Adds both blocks as they are at the frame's instant, or exposed.
 void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,

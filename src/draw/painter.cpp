@@ -1,23 +1,15 @@
 #include "draw/painter.hpp"
 
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "draw/disc_exposure.hpp"
 #include "draw/extent.hpp"
 
 namespace piblocks {
 namespace {
-
-/// Whether pixels of the picture are those of the surface: not in vector files and scaled groups.
-bool has_pixels_of_picture(cairo_t& cr) {
-  cairo_matrix_t matrix;
-  cairo_get_matrix(&cr, &matrix);
-  const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
-                           matrix.x0 == 0 && matrix.y0 == 0;
-  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
-}
 
 /// Cairo's pixels are multiplied by their alpha.
 CairoSurfacePtr premultiplied(const Image& image) {
@@ -73,6 +65,14 @@ double nearest_place(double px) { return std::round(px / kDiscStep_px) * kDiscSt
 
 }  // namespace
 
+bool has_pixels_of_picture(cairo_t& cr) {
+  cairo_matrix_t matrix;
+  cairo_get_matrix(&cr, &matrix);
+  const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
+                           matrix.x0 == 0 && matrix.y0 == 0;
+  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+}
+
 bool is_small(const DiscItem& disc) {
   constexpr double kSmall_px = 32;
   return reach_of(disc) <= kSmall_px;
@@ -86,8 +86,6 @@ void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) 
 
 Painter::Painter(TextSetting setting) : setting_(setting) {}
 
-Painter::~Painter() = default;
-
 void Painter::paint(cairo_t& cr, const DrawList& list) {
   paint(cr, list, {0, 0, list.width_px, list.height_px});
 }
@@ -98,13 +96,14 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
     cairo_paint(&cr);
   }
   for (const DrawItem& item : list.items) {
+    check_stop();
     if (!reaches(item, area)) continue;
     if (const auto* group = std::get_if<GroupItem>(&item)) {
       paint_group(cr, *group, area);
     } else if (const auto* blocks = std::get_if<ExposedBlocksItem>(&item)) {
-      paint_or_embed(cr, *blocks, list, area);
-    } else if (const auto* discs = std::get_if<ExposedDiscsItem>(&item)) {
-      paint_or_embed(cr, *discs, list, area);
+      paint_exposed(cr, *blocks, area);
+    } else if (const auto* shapes = std::get_if<MovingShapesItem>(&item)) {
+      paint_exposed(cr, *shapes, area);
     } else {
       paint_item(cr, item);
     }
@@ -272,45 +271,29 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   cairo_set_source_rgb(&cr, 0, 0, 0);
 }
 
-void Painter::paint_still(cairo_t& cr, const ExposedBlocksItem& item) {
+void Painter::paint_still(cairo_t& cr, ItemId id, const ExposedBlock& block) {
   std::vector<DrawItem> still;
-  for (const ExposedBlock& block : item.blocks) {
-    if (block.is_still()) add_rectangles(item.id, block, still);
-  }
+  add_rectangles(id, block, still);
   for (const DrawItem& rectangle : still) paint_item(cr, rectangle);
 }
 
-template <typename Item>
-void Painter::paint_or_embed(cairo_t& cr, const Item& item, const DrawList& list,
-                             const PixelRect& area) {
-  if (has_pixels_of_picture(cr)) {
-    paint_exposed(cr, item, area);
-  } else {
-    embed_exposed(cr, item, list);
+void Painter::paint_still(cairo_t& cr, const MovingShapesItem& item) {
+  for (const MovingShape& moving : item.shapes) {
+    if (const auto* block = std::get_if<ExposedBlock>(&moving.shape)) {
+      paint_still(cr, item.id, *block);
+    } else {
+      paint_item(cr, std::get<DiscItem>(moving.shape));
+    }
   }
 }
 
-/// What moves has no outline: it is embedded as pixels, with what is behind it.
-template <typename Item>
-void Painter::embed_exposed(cairo_t& cr, const Item& item, const DrawList& list) {
-  paint_still(cr, item);
-  const PixelRect area = moving_area(item, {0, 0, list.width_px, list.height_px});
-  if (area.width_px <= 0 || area.height_px <= 0) return;
-  DrawList until = list;
-  const auto is_item = [&](const DrawItem& other) {
-    const auto* exposed = std::get_if<Item>(&other);
-    return exposed != nullptr && *exposed == item;
-  };
-  until.items.erase(std::ranges::find_if(until.items, is_item) + 1, until.items.end());
-  const CairoSurfacePtr pixels =
-      image_surface(CAIRO_FORMAT_RGB24, area.width_px, area.height_px, "paint what moves");
-  cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
-  paint(*CairoPtr(cairo_create(pixels.get())), until, area);
-  cairo_surface_set_device_offset(pixels.get(), 0, 0);
-  // Not cairo_fill(): SVG would take the picture for a tile, whose edges shine through at the
-  // opposite ones.
-  cairo_set_source_surface(&cr, pixels.get(), area.x_px, area.y_px);
-  cairo_paint(&cr);
+const Light& Painter::light() {
+  if (!light_) light_ = std::make_unique<Light>();
+  return *light_;
+}
+
+void Painter::check_stop() const {
+  if (stop_.stop_requested()) throw Interrupted("interrupted");
 }
 
 }  // namespace piblocks

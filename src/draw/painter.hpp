@@ -5,8 +5,11 @@
 #include <cairo.h>
 #include <piblocks/image.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "draw/cairo_handles.hpp"
@@ -26,6 +29,9 @@ void paint_shape(cairo_t& cr, const DiscItem& item);
 /// Fills a rectangle with a surface whose upper left corner is there.
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds);
 
+/// Whether pixels of the picture are those of the surface: not in vector files and scaled groups.
+bool has_pixels_of_picture(cairo_t& cr);
+
 /// Whether a disc has few pixels: they are painted once for each place within a pixel, and kept.
 bool is_small(const DiscItem& disc);
 
@@ -36,16 +42,40 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-class DiscExposure;
+/// Where a surface holds the pixels of an area of the picture. While it lives Cairo does not paint.
+class SurfacePixels {
+ public:
+  SurfacePixels(cairo_t& cr, const PixelRect& area)
+      : surface_(*cairo_get_target(&cr)), area_(area) {
+    cairo_surface_flush(&surface_);
+    data_ = cairo_image_surface_get_data(&surface_);
+    stride_bytes_ = cairo_image_surface_get_stride(&surface_);
+  }
+  ~SurfacePixels() { cairo_surface_mark_dirty(&surface_); }
+  SurfacePixels(const SurfacePixels&) = delete;
+  SurfacePixels& operator=(const SurfacePixels&) = delete;
+
+  std::uint32_t* at(int x, int y) const {
+    return reinterpret_cast<std::uint32_t*>(data_ + (y - area_.y_px) * stride_bytes_) +
+           (x - area_.x_px);
+  }
+
+ private:
+  cairo_surface_t& surface_;
+  PixelRect area_;
+  unsigned char* data_ = nullptr;
+  std::ptrdiff_t stride_bytes_ = 0;
+};
 
 /// Keeps fonts, pixels of plates and images, and a table of light, once they were needed.
 class Painter {
  public:
   explicit Painter(TextSetting setting);
-  ~Painter();
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
+  /// From now on painting throws Interrupted soon after the token asks for it.
+  void listen(std::stop_token stop) { stop_ = std::move(stop); }
   /// Paints the background, if there is one, and every item. @throws DrawError
   void paint(cairo_t& cr, const DrawList& list);
   /// The same where only this area of the picture is visible.
@@ -67,19 +97,18 @@ class Painter {
   void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area);
-  void paint_exposed(cairo_t& cr, const ExposedDiscsItem& item, const PixelRect& area);
-  template <typename Item>
-  void paint_or_embed(cairo_t& cr, const Item& item, const DrawList& list, const PixelRect& area);
-  template <typename Item>
-  void embed_exposed(cairo_t& cr, const Item& item, const DrawList& list);
-  void paint_still(cairo_t& cr, const ExposedBlocksItem& item);
-  void paint_still(cairo_t& /*cr*/, const ExposedDiscsItem& /*item*/) {}
+  void paint_exposed(cairo_t& cr, const MovingShapesItem& item, const PixelRect& area);
+  // At the picture's instant.
+  void paint_still(cairo_t& cr, ItemId id, const ExposedBlock& block);
+  void paint_still(cairo_t& cr, const MovingShapesItem& item);
+  const Light& light();
+  void check_stop() const;
 
   TextSetting setting_;
   Fonts fonts_;
   std::unique_ptr<Light> light_;
   std::vector<std::uint32_t> background_;  ///< of exposed blocks; kept for its memory
-  std::unique_ptr<DiscExposure> disc_exposure_;
+  std::stop_token stop_;
   /// Pixels of a source, which is held, so that its address stays its own.
   template <typename Source>
   struct Kept {

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <utility>
+#include <optional>
 
 #include "physics/body_logs.hpp"
 #include "physics/exposure.hpp"
@@ -29,72 +29,20 @@ std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
   return pieces;
 }
 
-/// Of one of two blocks, which are together in every piece.
-std::vector<BodyPiece> pieces_of(const Exposure& blocks, BlockName block, int sign) {
-  std::vector<BodyPiece> pieces;
-  double begin = 0;
-  for (const UniformPiece& piece : blocks.pieces) {
-    const Travel& way = piece.of(block);
-    const double end = begin + piece.share;
-    pieces.push_back({begin, end, {sign * way.from, 0}, {sign * way.to, 0}});
-    begin = end;
-  }
-  return pieces;
-}
-
-/// G of a body, whose positions are those of a block times `sign`.
-double area_below(const Exposure& blocks, BlockName block, int sign, double position) {
-  if (sign > 0) return blocks.area_below(block, position);
-  // The share of time that the mirrored block is below y is that of the block above -y.
-  const double last = blocks.range(block).to;
-  if (-position >= last) return 0;
-  return (last + position) - (blocks.area_below(block, last) - blocks.area_below(block, -position));
-}
-
-Travel scaled(const Travel& range, int sign) {
-  return sign > 0 ? range : Travel{-range.to, -range.from};
-}
-
-/// Where the bodies are two blocks, the closed form sums up what cannot be listed.
-void use_closed_form(const ClosedBlocks& closed, const Rational& begin, const Rational& end,
-                     BodyExposure& exposure) {
-  Exposure blocks = expose(closed.log, begin, end);
-  exposure.pieces[closed.blue] = pieces_of(blocks, BlockName::blue, closed.sign);
-  exposure.pieces[closed.red] = pieces_of(blocks, BlockName::red, closed.sign);
-  exposure.ranges[closed.blue] = scaled(blocks.blue_range, closed.sign);
-  exposure.ranges[closed.red] = scaled(blocks.red_range, closed.sign);
-  if (!blocks.area_below) return;
-  exposure.area_below = [blocks = std::move(blocks), blue = closed.blue, sign = closed.sign](
-                            std::size_t body, double position) {
-    return area_below(blocks, body == blue ? BlockName::blue : BlockName::red, sign, position);
-  };
-}
-
-Travel range_of(const std::vector<BodyPiece>& pieces) {
-  Travel range{pieces.front().from[0], pieces.front().from[0]};
-  for (const BodyPiece& piece : pieces) range.include({piece.from[0], piece.to[0]});
-  return range;
-}
-
 }  // namespace
 
 BodyExposure expose(const BodyLog& log, const Rational& begin, const Rational& end) {
   if (end < begin) return expose(log, end, begin);
-  BodyExposure exposure;
-  if (const std::optional<ClosedBlocks> closed = closed_blocks(log)) {
-    // A third body, if there is one, is the wall.
-    for (const BodyMotion& at_rest : motions_at_start(log.system())) {
-      exposure.pieces.push_back({{0, 1, at_rest.position, at_rest.position}});
-      exposure.ranges.push_back(range_of(exposure.pieces.back()));
-    }
-    use_closed_form(*closed, begin, end, exposure);
-    return exposure;
+  if (const std::optional<ClosedBlocks> blocks = closed_blocks(log)) {
+    return {
+        {},
+        ClosedExposure{expose(blocks->log, begin, end), blocks->blue, blocks->red, blocks->sign}};
   }
   // What is stepped can be listed: a log has no more than kMaxBodyCollisions.
   constexpr auto kAll = static_cast<std::size_t>(kMaxBodyCollisions);
+  BodyExposure exposure;
   for (const std::vector<PathPoint>& path : log.paths(begin, end, kAll)) {
     exposure.pieces.push_back(pieces_of(path));
-    exposure.ranges.push_back(range_of(exposure.pieces.back()));
   }
   return exposure;
 }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace piblocks {
@@ -68,18 +69,24 @@ struct BodyPiece {
   double end = 0;
   std::array<double, 2> from = {};
   std::array<double, 2> to = {};
+};
 
-  double share() const { return end - begin; }
+/// Two bodies that move as the blocks of an Exposure do, beside others that stay.
+struct ClosedExposure {
+  Exposure blocks;
+  std::size_t blue = 0;  ///< the body that moves as blue does
+  std::size_t red = 0;
+  int sign =
+      1;  ///< -1 if the bodies are mirrored: their positions are those of the blocks times -1
+
+  bool has(std::size_t body) const { return body == blue || body == red; }
 };
 
 /// Any bodies in an interval of time.
 struct BodyExposure {
-  /// Of each body, in the order of time.
+  /// Of each body, in the order of time; none if the motion is a closed form.
   std::vector<std::vector<BodyPiece>> pieces = {};
-  /// As Exposure has it; for the two bodies that move in closed form.
-  std::function<double(std::size_t body, double position)> area_below = {};
-
-  std::vector<Travel> ranges = {};  ///< of all positions of each body, along x
+  std::optional<ClosedExposure> closed = {};
 };
 
 /// The interval between two times, in either order, none of them negative. Every collision is

@@ -161,6 +161,7 @@ void check_flashes(const Film& film, int most, const std::stop_token& stop) {
   const double frames_per_s = to_double(view.frame_rate);
   FlashMeter meter(view.width_px, view.height_px, frames_per_s, most);
   Canvas canvas(view.width_px, view.height_px, view.background);
+  canvas.listen(stop);
   std::optional<Flashing> first;
   Flashing worst;
   for (std::int64_t frame = 0; frame < film.frame_count(); ++frame) {

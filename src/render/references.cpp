@@ -118,6 +118,7 @@ void References::draw(
   const Film film(script_);
   const View& view = view_of(script_);
   Canvas canvas(view.width_px, view.height_px, view.background);
+  canvas.listen(stop);
   for (const std::int64_t frame : frames) {
     if (stop.stop_requested()) throw Interrupted("golden: interrupted");
     canvas.update(film.frame(frame));

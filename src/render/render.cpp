@@ -60,6 +60,7 @@ class Worker {
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
     encoder_->begin(plan_.chunks.begin(chunk));
+    canvas_.listen(stop);
     for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
       if (stop.stop_requested()) throw Interrupted("render: interrupted");
       add_frame(frame, clock);

@@ -59,7 +59,7 @@ DrawList still_picture(const Script& script, const Instant& instant);
 DrawList still_picture(const Film& film, const Instant& instant);
 
 /// The bytes of a PNG file with the pixels of a frame. @throws DrawError, MediaError
-std::vector<std::uint8_t> draw_png(const DrawList& list);
+std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& stop = {});
 
 /// Each picture is the still_picture() of its instant. @throws as still_picture(); Interrupted
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,

@@ -22,15 +22,25 @@ namespace piblocks {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using Draw = Bytes(const DrawList& list);
+using Draw = Bytes(const DrawList& list, const std::stop_token& stop);
 
-Bytes draw_page_png(const DrawList& page) { return encode_png(draw_pixels(page).view()); }
+Bytes draw_page_png(const DrawList& page, const std::stop_token& /*stop*/) {
+  return encode_png(draw_pixels(page).view());
+}
+
+Bytes draw_svg_file(const DrawList& list, const std::stop_token& /*stop*/) {
+  return draw_svg(list);
+}
+
+Bytes draw_pdf_file(const DrawList& list, const std::stop_token& /*stop*/) {
+  return draw_pdf(list);
+}
 
 /// @param command  named in messages, with the endings as its help lists them.
 Draw* drawing_for(std::string_view output, Draw* png, const char* command, const char* endings) {
   if (output == "-" || has_ending(output, ".png")) return png;
-  if (has_ending(output, ".svg")) return draw_svg;
-  if (has_ending(output, ".pdf")) return draw_pdf;
+  if (has_ending(output, ".svg")) return draw_svg_file;
+  if (has_ending(output, ".pdf")) return draw_pdf_file;
   throw UsageError(
       fmt::format("{}: '{}' has no known ending; use {}, or - for PNG on standard output", command,
                   output, endings));
@@ -155,9 +165,10 @@ std::vector<CaptionedPicture> pictures_of(const FilmRun& run, const std::vector<
 
 }  // namespace
 
-std::vector<std::uint8_t> draw_png(const DrawList& list) {
+std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& stop) {
   Canvas canvas(list.width_px, list.height_px,
                 list.background ? Background::opaque : Background::transparent);
+  canvas.listen(stop);
   canvas.paint(list);
   return encode_png(canvas.view());
 }
@@ -178,7 +189,7 @@ void render_still(const Script& script, const Instant& instant, const std::strin
                   const std::stop_token& stop) {
   Draw* const draw = drawing_for(output, draw_png, "still", ".png, .svg, .pdf");
   const DrawList list = still_picture(script, instant);
-  write_picture(output, "still", stop, [&] { return draw(list); });
+  write_picture(output, "still", stop, [&] { return draw(list, stop); });
 }
 
 std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
@@ -205,8 +216,9 @@ void render_sheet(const Scene& scene, const SheetInstants& instants, const std::
       on_progress, stop);
   const bool is_png = draw == draw_page_png;
   write_picture(output, "sheet", stop, [&] {
-    return draw(arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
-                        is_png ? kPageHeight_px : kPageHeight_pt));
+    const DrawList page = arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
+                                  is_png ? kPageHeight_px : kPageHeight_pt);
+    return draw(page, stop);
   });
 }
 

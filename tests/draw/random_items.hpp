@@ -108,7 +108,6 @@ inline ExposedBlock any_exposed_block(Random& random, int width, int height) {
                       random.uniform(1, height)},
                      any_color(random),
                      {any_color(random), random.uniform(0.5, 4), 0},
-                     {},
                      {}};
   for (std::int64_t i = random.integer(-2, 3); i > 0; --i) {
     const double down = random.uniform(0, block.bounds.height);
@@ -120,45 +119,43 @@ inline ExposedBlock any_exposed_block(Random& random, int width, int height) {
     block.dwells.push_back({x, 1.0 / double(count)});
     x += random.uniform(0.01, 1);
   }
-  // Ways are where the dwells are, if there are any.
-  double begin = block.bounds.x;
-  constexpr int kWays = 3;
-  for (int i = random.integer(0, 1) == 0 ? 0 : kWays; i > 0; --i) {
-    double end = random.integer(0, 3) == 0 ? begin : anywhere(random, width);
-    if (count > 0) end = random.uniform(block.bounds.x, block.dwells.back().x);
-    block.paths.push_back({begin, end, 1.0 / kWays});
-    begin = end;
-  }
   return block;
 }
 
 inline ExposedBlocksItem any_exposed(Random& random, ItemId id, int width, int height) {
   ExposedBlocksItem item{
-      id, {any_exposed_block(random, width, height), any_exposed_block(random, width, height)}, {}};
+      id, any_exposed_block(random, width, height), any_exposed_block(random, width, height), {}};
   for (std::int64_t i = random.integer(-3, 5); i > 0; --i) {
     item.contacts.push_back({anywhere(random, width), anywhere(random, width), 0.1});
   }
-  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::behind_x);
   return item;
 }
 
-/// Discs of all sizes, with and without a rim, which may overlap.
-inline ExposedDiscsItem any_exposed_discs(Random& random, ItemId id, int width, int height) {
-  const auto place = [&] { return Point{anywhere(random, width), anywhere(random, height)}; };
-  ExposedDiscsItem item{id, {}};
+/// Blocks and discs of all sizes, which may overlap, along straight ways.
+inline MovingShapesItem any_moving_shapes(Random& random, ItemId id, int width, int height) {
+  MovingShapesItem item{id, {}};
+  const auto moments = random.integer(1, 30);
   for (std::int64_t i = random.integer(1, 4); i > 0; --i) {
-    ExposedDisc disc{std::exp(random.uniform(-3, 3)),
-                     random.integer(0, 1) == 0 ? 0 : 1.5,
-                     any_color(random),
-                     any_color(random),
-                     {}};
-    Point from = place();
-    for (std::int64_t paths = random.integer(1, 3); paths > 0; --paths) {
-      const Point to = random.integer(0, 4) == 0 ? from : place();
-      disc.paths.push_back({from, to, 1.0 / double(3)});
-      from = to;
+    MovingShape moving;
+    if (random.integer(0, 1) == 0) {
+      ExposedBlock block = any_exposed_block(random, width, height);
+      block.dwells.clear();
+      moving.shape = std::move(block);
+    } else {
+      DiscItem disc{id, {}, std::exp(random.uniform(-3, 3)), any_color(random), any_stroke(random)};
+      if (disc.stroke) disc.stroke->dash_px = 0;
+      moving.shape = disc;
     }
-    item.discs.push_back(std::move(disc));
+    const Point from = any_point(random, width, height);
+    const Point to = random.integer(0, 4) == 0 ? from : any_point(random, width, height);
+    std::vector<Point> places;
+    for (std::int64_t k = 0; k < moments; ++k) {
+      const double part = double(k) / double(moments);
+      places.push_back({from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)});
+    }
+    moving.places = places;
+    item.shapes.push_back(std::move(moving));
   }
   return item;
 }
@@ -194,7 +191,7 @@ inline DrawItem any_item(Random& random, ItemId id, int width, int height) {
     case 6:
       return any_plate(random, id, width, height);
     case 7:
-      return any_exposed_discs(random, id, width, height);
+      return any_moving_shapes(random, id, width, height);
     default:
       return any_rectangle(random, id, width, height);
   }

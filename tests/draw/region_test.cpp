@@ -139,14 +139,15 @@ void move(Random& random, ExposedBlock& block) {
   const double step = random.uniform(-5, 5);
   block.bounds.x += step;
   for (Dwell& dwell : block.dwells) dwell.x += step;
-  for (BlockPath& path : block.paths) {
-    path.from += step;
-    path.to += step;
-  }
-  if (random.integer(0, 4) == 0) {
-    block.dwells.clear();
-    block.paths.clear();
-  }
+  if (random.integer(0, 4) == 0) block.dwells.clear();
+}
+
+/// All places but the first.
+void move(Random& random, MovingShape& moving) {
+  const double step = random.uniform(-5, 5);
+  std::vector<Point> places(moving.places.view().begin(), moving.places.view().end());
+  for (std::size_t i = 1; i < places.size(); ++i) places[i].x += step;
+  moving.places = std::move(places);
 }
 
 void change(Random& random, DrawList& list);
@@ -189,11 +190,11 @@ void change(Random& random, DrawList& list) {
     } else if (auto* group = std::get_if<GroupItem>(&item); group && kind < 3) {
       change_group(random, *group);
     } else if (auto* exposed = std::get_if<ExposedBlocksItem>(&item); exposed && kind < 3) {
-      move(random, exposed->blocks.at(static_cast<std::size_t>(random.integer(0, 1))));
+      move(random, random.integer(0, 1) == 0 ? exposed->behind : exposed->front);
       if (random.integer(0, 1) == 0) exposed->contacts.clear();
-    } else if (auto* discs = std::get_if<ExposedDiscsItem>(&item); discs && kind < 3) {
-      discs->discs.back().paths.back().to.x += random.uniform(-5, 5);
-      if (random.integer(0, 3) == 0) discs->discs.push_back(discs->discs.front());
+    } else if (auto* moving = std::get_if<MovingShapesItem>(&item); moving && kind < 3) {
+      move(random, moving->shapes.back());
+      if (random.integer(0, 3) == 0) moving->shapes.push_back(moving->shapes.front());
     }
   }
 }

@@ -95,7 +95,7 @@ class Checker {
   void check_item(const PlateItem& item) { check(item.plate->items); }
   void check_item(const GroupItem& /*item*/) {}
   void check_item(const ExposedBlocksItem& /*item*/) {}
-  void check_item(const ExposedDiscsItem& /*item*/) {}
+  void check_item(const MovingShapesItem& /*item*/) {}
 
   const DrawList& list_;
   Fonts fonts_;

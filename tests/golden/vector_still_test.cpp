@@ -109,23 +109,6 @@ std::string case_name(const testing::TestParamInfo<VectorCase>& info) { return i
 
 INSTANTIATE_TEST_SUITE_P(Kinds, VectorStills, testing::ValuesIn(kKinds), case_name);
 
-using OpaqueVectorStills = VectorStills;
-
-/// What is exposed needs something behind it.
-TEST_P(OpaqueVectorStills, LookLikeThePixels) {
-  draw(Arguments{"still"} + GetParam().options);
-  ASSERT_TRUE(rasterise(folder_, "a", "", kOnePixelAPoint));
-  expect_alike("svg", 255);
-  expect_alike("pdf", 255);
-}
-
-INSTANTIATE_TEST_SUITE_P(Kinds, OpaqueVectorStills,
-                         testing::Values(VectorCase{
-                             "shutter",
-                             {"--at", "2.9", "--shutter", "1", "--fps", "10", "--show",
-                              kAllOverlays, "--size", "640x480", "--theme", "print"}}),
-                         case_name);
-
 using VectorSheets = VectorStills;
 
 TEST_P(VectorSheets, LookLikeThePixels) {

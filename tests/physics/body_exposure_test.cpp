@@ -37,7 +37,8 @@ double share_below(const std::vector<BodyPiece>& pieces, double position) {
   double share = 0;
   for (const BodyPiece& piece : pieces) {
     const auto [low, high] = std::minmax(piece.from[0], piece.to[0]);
-    share += piece.share() * std::clamp((position - low) / std::max(high - low, 1e-300), 0.0, 1.0);
+    share += (piece.end - piece.begin) *
+             std::clamp((position - low) / std::max(high - low, 1e-300), 0.0, 1.0);
   }
   return share;
 }
@@ -55,8 +56,6 @@ TEST(BodyExposure, ListsEveryCollision) {
     EXPECT_NEAR(share_below(exposure.pieces[1], position), (position + 2.25) / 4.5, 1e-9);
   }
   EXPECT_EQ(exposure.pieces[0].size(), 1U);
-  EXPECT_EQ(exposure.ranges[1].from, -2.25);
-  EXPECT_EQ(exposure.ranges[1].to, 2.25);
 }
 
 /// At even times it would always be at one place.
@@ -96,23 +95,29 @@ TEST(BodyExposure, PathsAreThoseOfStates) {
   EXPECT_THROW(log->paths(-1, 1, kAll), UsageError);
 }
 
-/// In closed form, too, the wall needs no more than a place.
-TEST(BodyExposure, TheWallOfTheClosedFormStays) {
-  BodySystem system{1, {}, {}};
-  system.bodies.push_back({.mass = std::nullopt, .position = {Rational(-1, 2), 0}});
-  system.bodies.push_back({.mass = 1, .position = {2, 0}});
-  system.bodies.push_back({.mass = 100'000'000, .position = {5, 0}, .velocity = {-1, 0}});
-  const auto log = make_body_log(system, std::nullopt);
-  ASSERT_TRUE(closed_blocks(*log));
-  const BodyExposure exposure = expose(*log, 3, 5);
-  ASSERT_TRUE(exposure.area_below);
-  ASSERT_EQ(exposure.pieces[0].size(), 1U);
-  EXPECT_EQ(exposure.pieces[0][0].from, (std::array{-0.5, 0.0}));
-  EXPECT_EQ(exposure.pieces[0][0].to, (std::array{-0.5, 0.0}));
-  EXPECT_EQ(exposure.pieces[0][0].share(), 1);
-  const auto paths = log->paths(3, 5, 10);
-  EXPECT_EQ(paths[0].size(), 2U);
-  EXPECT_EQ(paths[1].size(), 10U);
+/// By other names, and mirrored.
+TEST(BodyExposure, OfTheClosedFormIsThatOfTheBlocks) {
+  for (const int sign : {1, -1}) {
+    BodySystem system{1, {}, {}};
+    system.bodies.push_back({.mass = std::nullopt, .position = {sign * Rational(-1, 2), 0}});
+    system.bodies.push_back({.mass = 1, .position = {sign * 2, 0}});
+    system.bodies.push_back(
+        {.mass = 100'000'000, .position = {sign * 5, 0}, .velocity = {-sign, 0}});
+    const auto log = make_body_log(system, std::nullopt);
+    ASSERT_TRUE(closed_blocks(*log));
+    const BodyExposure exposure = expose(*log, 3, 5);
+    EXPECT_TRUE(exposure.pieces.empty());
+    ASSERT_TRUE(exposure.closed);
+    EXPECT_EQ(exposure.closed->blue, 1U);
+    EXPECT_EQ(exposure.closed->red, 2U);
+    EXPECT_EQ(exposure.closed->sign, sign);
+    ASSERT_TRUE(exposure.closed->blocks.area_below);
+    EXPECT_NEAR(exposure.closed->blocks.red_range.to, sign * log->state_at(3).bodies[2].position[0],
+                1e-9);
+    const auto paths = log->paths(3, 5, 10);
+    EXPECT_EQ(paths[0].size(), 2U);
+    EXPECT_EQ(paths[1].size(), 10U);
+  }
 }
 
 }  // namespace

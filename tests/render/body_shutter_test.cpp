@@ -1,6 +1,7 @@
 // Exposed frames of bodies against the mean of many instants.
 #include <gtest/gtest.h>
 #include <piblocks/bodies.hpp>
+#include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
 #include <algorithm>
@@ -8,6 +9,8 @@
 #include <cmath>
 #include <initializer_list>
 #include <numeric>
+#include <optional>
+#include <stop_token>
 #include <variant>
 #include <vector>
 
@@ -137,19 +140,19 @@ struct MovingRow {
     return {{left_at(time) + i * block_px, 5.5, block_px, 20},
             fills[static_cast<std::size_t>(i % 3)],
             {Color{10, 10, 40}, line_px},
-            {},
             {}};
   }
   /// From left to right, but painted in another order.
-  ExposedBlocksItem item() const {
-    ExposedBlocksItem item{ItemId::red_block, {}, {}};
+  MovingShapesItem item() const {
+    const int moments = static_cast<int>(16 + 2 * way_px);
+    MovingShapesItem item{ItemId::red_block, {}};
     for (const int i : order()) {
-      item.blocks.push_back(block(i, 0));
-      for (const double turn : {0.25, 1.0}) {
-        const double before = turn == 1 ? 0.25 : 0;
-        item.blocks.back().paths.push_back(
-            {block(i, before).bounds.x, block(i, turn).bounds.x, turn - before});
+      std::vector<Point> places;
+      for (int k = 0; k < moments; ++k) {
+        const Rectangle bounds = block(i, (k + 0.5) / moments).bounds;
+        places.push_back({bounds.x, bounds.y});
       }
+      item.shapes.push_back({block(i, 0), places});
     }
     return item;
   }
@@ -226,15 +229,12 @@ TEST(BodyShutter, BlocksTakeNoMoreMemoryTheFasterTheyAre) {
   const Film film(scene_of({1, std::move(bodies), {}}, 1));
   std::size_t parts = 0;
   for (const DrawItem& item : film.frame(0).items) {
-    const auto* const exposed = std::get_if<ExposedBlocksItem>(&item);
+    const auto* const exposed = std::get_if<MovingShapesItem>(&item);
     if (exposed == nullptr) continue;
-    parts += exposed->contacts.size();
-    for (const ExposedBlock& block : exposed->blocks) {
-      parts += block.dwells.size() + block.paths.size();
-    }
+    for (const MovingShape& shape : exposed->shapes) parts += shape.places.view().size();
   }
   EXPECT_GT(parts, 0U);
-  EXPECT_LE(parts, std::size_t{2 * kBlocks});
+  EXPECT_LE(parts, std::size_t{1} << 22);
 }
 
 /// What happens after it may not be certain, or too much to compute.
@@ -315,7 +315,7 @@ TEST(BodyShutter, DiscsThatStayAreDiscItems) {
     EXPECT_EQ(count([](const DrawItem& part) { return std::holds_alternative<DiscItem>(part); }),
               1);
     EXPECT_EQ(
-        count([](const DrawItem& part) { return std::holds_alternative<ExposedDiscsItem>(part); }),
+        count([](const DrawItem& part) { return std::holds_alternative<MovingShapesItem>(part); }),
         1);
   }
 }
@@ -379,22 +379,67 @@ TEST(BodyShutter, DiscsThatMoveByLessThanCanBeSeenAreDiscs) {
 
 /// Light is neither lost nor made: far from its edges a disc's mean is its time there.
 TEST(BodyShutter, ManyDiscsThatPassOnePlaceAddUp) {
-  ExposedDiscsItem item{ItemId::red_block, {}};
-  constexpr int kDiscs = 4;
-  for (int i = 0; i < kDiscs; ++i) {
-    const double away = 1000;
-    // Each is over the middle for a quarter of the time, and away before and after.
-    ExposedDisc disc{30, 0, Color{255, 255, 255}, {}, {}};
-    disc.paths = {{{away, away}, {away, away}, double(i) / kDiscs},
-                  {{50, 50}, {50, 50}, 1.0 / kDiscs},
-                  {{away, away}, {away, away}, double(kDiscs - 1 - i) / kDiscs}};
-    item.discs.push_back(disc);
+  MovingShapesItem item{ItemId::red_block, {}};
+  constexpr std::size_t kDiscs = 4;
+  for (std::size_t i = 0; i < kDiscs; ++i) {
+    // Each is over the middle for a quarter of the time.
+    std::vector<Point> places(kDiscs, {1000, 1000});
+    places[i] = {50, 50};
+    item.shapes.push_back({DiscItem{{}, {}, 30, Color{255, 255, 255}, std::nullopt}, places});
   }
   DrawList list{100, 100, Color{0, 0, 0}, {item}};
   Canvas canvas(100, 100);
   canvas.paint(list);
   EXPECT_EQ(canvas.view().row(50)[4 * 50], 255);
   EXPECT_EQ(canvas.view().row(50)[4 * 95], 0);
+}
+
+/// However fast, however many: so many edges of so many moments.
+TEST(BodyShutter, NoFrameCostsMoreThanItsLimit) {
+  for (const int count : {1, 1500}) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < count; ++i) {
+      bodies.push_back({.position = {Rational(1 + i % 50) / 7, Rational(1 + i / 50) / 8},
+                        .velocity = {20 + i % 7, i % 11 - 5},
+                        .size = Rational(1, 20)});
+    }
+    Scene scene = scene_of(box(std::move(bodies), 2), 1);
+    scene.view.frame_rate = 1;
+    scene.view.shutter = 1;
+    scene.view.width_px = 3200;
+    scene.view.height_px = 1800;
+    scene.time.allow_uncertain = true;
+    const DrawList frame = Film(scene).frame(0);
+    const auto& group = std::get<GroupItem>(frame.items.front());
+    const DrawItem& item = group.list->items.back();
+    const auto* const moving = std::get_if<MovingShapesItem>(&item);
+    ASSERT_NE(moving, nullptr);
+    double edges_px = 0;
+    for (const MovingShape& shape : moving->shapes) {
+      edges_px += 6.28 * std::get<DiscItem>(shape.shape).radius;
+    }
+    const auto moments = moving->shapes.front().places.view().size();
+    EXPECT_LE(edges_px * double(moments), 1 << 26) << count;
+    EXPECT_LE(moments, 4096U) << count;
+    EXPECT_GE(moments, 16U) << count;
+  }
+}
+
+/// Where a request to stop comes while one picture is painted.
+TEST(BodyShutter, PaintingStopsWithinAFrame) {
+  MovingShapesItem item{ItemId::red_block, {}};
+  item.shapes.push_back(
+      {DiscItem{{}, {}, 40, Color{255, 255, 255}, std::nullopt}, std::vector<Point>(8, {50, 50})});
+  const DrawList list{100, 100, Color{0, 0, 0}, {item}};
+  std::stop_source stop;
+  Canvas canvas(100, 100);
+  canvas.listen(stop.get_token());
+  EXPECT_NO_THROW(canvas.paint(list));
+  stop.request_stop();
+  EXPECT_THROW(canvas.paint(list), Interrupted);
+  canvas.listen({});
+  EXPECT_NO_THROW(canvas.update(list));
+  EXPECT_EQ(canvas.view().row(50)[4 * 50], 255);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "draw/bodies/moving_bodies.hpp"
 #include "draw/number_text.hpp"
 
 namespace piblocks {
@@ -17,8 +18,6 @@ constexpr double kArrowHead = 0.014;
 constexpr std::size_t kArrows = 32768;
 /// Above the ids of walls.
 constexpr std::size_t kTrails = 2000;
-/// Above the ids of discs.
-constexpr std::size_t kExposed = 65535;
 constexpr double kTrailOpacity = 0.45;
 /// A disc whose radius is less than so many widths of its rim has none.
 constexpr double kLeastRim = 4;
@@ -84,7 +83,7 @@ class BodyPainter {
   BodyPainter(const DrawingContext& context, BodyShapes bodies)
       : bodies_(std::move(bodies)),
         line_px_(std::max(1.0, std::round(context.sizes.data_line))),
-        width_px_(context.scene.view.width_px),
+        frame_{0, 0, context.scene.view.width_px, context.scene.view.height_px},
         labels_{.type_px = context.sizes.mass,
                 .above_px = kLabelAbove * context.sizes.short_side,
                 .above = context.palette.text,
@@ -93,11 +92,9 @@ class BodyPainter {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     add_trails(shown.trails, items);
-    if (bodies_.are_blocks) {
-      add_blocks(shown, items);
-    } else {
-      add_discs(shown, items);
-    }
+    std::vector<StillBody> bodies;
+    for (std::size_t i = 0; i < shown.bodies.size(); ++i) bodies.push_back(body_at(shown, i));
+    add_exposed(bodies, bodies_.map, frame_, shown.body_exposure, items);
     for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
       if (!bodies_.shapes[i].label.empty()) items.emplace_back(label_of(i, centre_of(shown, i)));
     }
@@ -129,36 +126,12 @@ class BodyPainter {
              shape.height_px},
             shape.colors.fill,
             {shape.colors.edge, line_px_},
-            {},
             {}};
   }
 
-  void add_blocks(const FrameState& shown, std::vector<DrawItem>& items) const {
-    std::vector<ExposedBlock> blocks;
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
-      blocks.push_back(block_of(i, centre_of(shown, i)));
-    }
-    if (shown.body_exposure.empty()) {
-      for (std::size_t i = 0; i < blocks.size(); ++i) {
-        add_rectangles(nth(ItemId::red_block, i), blocks[i], items);
-      }
-      return;
-    }
-    const AxisPlace axis{bodies_.map.origin.x, bodies_.map.scale, double(width_px_)};
-    items.emplace_back(exposed_blocks(std::move(blocks), axis, shown.body_exposure));
-  }
-
-  void add_discs(const FrameState& shown, std::vector<DrawItem>& items) const {
-    ExposedDiscsItem exposed{nth(ItemId::red_block, kExposed), {}};
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
-      std::vector<DiscPath> paths = paths_of(i, shown.body_exposure);
-      if (paths.empty()) {
-        items.emplace_back(disc_of(i, centre_of(shown, i)));
-      } else {
-        exposed.discs.push_back(exposed_disc(i, std::move(paths)));
-      }
-    }
-    if (!exposed.discs.empty()) items.emplace_back(std::move(exposed));
+  StillBody body_at(const FrameState& shown, std::size_t body) const {
+    const Point centre = centre_of(shown, body);
+    return bodies_.are_blocks ? StillBody(block_of(body, centre)) : disc_of(body, centre);
   }
 
   bool has_rim(const BodyShape& shape) const {
@@ -173,32 +146,6 @@ class BodyPainter {
     }
     return {id, centre, shape.half_width_px - line_px_ / 2, shape.colors.fill,
             Stroke{shape.colors.edge, line_px_}};
-  }
-
-  ExposedDisc exposed_disc(std::size_t body, std::vector<DiscPath> paths) const {
-    const BodyShape& shape = bodies_.shapes[body];
-    return {shape.half_width_px, has_rim(shape) ? line_px_ : 0, shape.colors.fill,
-            shape.colors.edge, std::move(paths)};
-  }
-
-  /// Nothing if the disc stays where it is.
-  std::vector<DiscPath> paths_of(std::size_t body,
-                                 const std::vector<WeightedBodyExposure>& exposures) const {
-    std::vector<DiscPath> paths;
-    for (const auto& [share, exposure] : exposures) {
-      for (const BodyPiece& piece : exposure.pieces[body]) {
-        paths.push_back(
-            {bodies_.map.at(piece.from), bodies_.map.at(piece.to), share * piece.share()});
-      }
-    }
-    const auto is_near = [](const Point& a, const Point& b) {
-      return std::fabs(a.x - b.x) <= kStill_px && std::fabs(a.y - b.y) <= kStill_px;
-    };
-    const bool is_still = std::ranges::all_of(paths, [&](const DiscPath& way) {
-      return is_near(way.from, paths.front().from) && is_near(way.to, paths.front().from);
-    });
-    if (is_still) paths.clear();
-    return paths;
   }
 
   TextItem label_of(std::size_t body, const Point& centre) const {
@@ -226,7 +173,7 @@ class BodyPainter {
 
   BodyShapes bodies_;
   double line_px_;
-  int width_px_;
+  PixelRect frame_;
   LabelLook labels_;
   ArrowLook arrows_;
 };

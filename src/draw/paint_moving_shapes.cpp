@@ -1,0 +1,354 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "draw/block_cover.hpp"
+#include "draw/extent.hpp"
+#include "draw/painter.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Red, green and blue.
+using Rgb = std::array<double, 3>;
+/// Sums of light in whole numbers do not depend on their order, so that a part of the picture has
+/// the pixels of the whole.
+using LightSum = std::array<std::int64_t, 3>;
+constexpr double kLightUnit = 1 << 30;
+
+Rgb samples_of(const Color& color) {
+  return {double(color.red), double(color.green), double(color.blue)};
+}
+
+/// How much of a pixel the half-plane covers whose edge is so far inside of the pixel's centre, and
+/// at right angles to a direction.
+double half_plane(double inside, double x, double y) {
+  const double most = std::max(std::fabs(x), std::fabs(y));
+  const double least = std::min(std::fabs(x), std::fabs(y));
+  const double away = std::fabs(inside);
+  double outside = 0;  // of the smaller part
+  if (away <= (most - least) / 2) {
+    outside = 0.5 - away / most;
+  } else if (away < (most + least) / 2) {
+    const double corner = (most + least) / 2 - away;
+    outside = corner * corner / (2 * most * least);
+  }
+  return inside > 0 ? 1 - outside : outside;
+}
+
+/// Pixels [begin, end) of a row.
+struct Run {
+  int begin = 0;
+  int end = 0;
+};
+
+Run cut(const Run& run, const Run& to) {
+  return {std::clamp(run.begin, to.begin, to.end), std::clamp(run.end, to.begin, to.end)};
+}
+
+int whole(double px) { return static_cast<int>(std::clamp(px, -1e9, 1e9)); }
+
+/// A disc as the painter sees it, at any place.
+class MovingDisc {
+ public:
+  explicit MovingDisc(const DiscItem& disc)
+      : fill_(samples_of(disc.fill.value_or(Color{}))),
+        rim_(samples_of(disc.stroke ? disc.stroke->color : Color{})) {
+    const double rim_px = disc.stroke ? disc.stroke->width_px : 0;
+    const double radius = disc.radius + rim_px / 2;
+    const double seen = std::max(radius, kLeast_px);
+    // A disc thinner than a pixel is as wide as one, and fainter.
+    opacity_ = std::min(1.0, radius * radius / (seen * seen));
+    outer_ = radius_of_edge(seen);
+    inner_ = rim_px > 0 ? radius_of_edge(seen - rim_px) : outer_;
+  }
+
+  /// Whether it looks the same in a row and in the one above, wherever it is.
+  static bool repeats(int /*y*/) { return false; }
+  Run rows(const Point& at) const {
+    return {whole(std::floor(at.y - outer_ - kEdge_px)),
+            whole(std::ceil(at.y + outer_ + kEdge_px))};
+  }
+
+  /// Calls solid(run, samples) and edge(x, over), which is what it makes of the samples behind it.
+  template <typename Solid, typename Edge>
+  void visit_row(const Point& at, int y, const Run& columns, const Solid& solid,
+                 const Edge& edge) const {
+    const double down = y + 0.5 - at.y;
+    const Run run = cut(within(outer_ + kEdge_px, down, at.x), columns);
+    Run inside = within(inner_ - kEdge_px, down, at.x);
+    if (opacity_ < 1 || inside.begin >= inside.end) inside = {run.end, run.end};
+    inside = cut(inside, run);
+    const auto paint = [&](int x) {
+      edge(x, [&](const Rgb& behind) { return over(behind, x + 0.5 - at.x, down); });
+    };
+    for (int x = run.begin; x < inside.begin; ++x) paint(x);
+    if (inside.begin < inside.end) solid(inside, fill_);
+    for (int x = inside.end; x < run.end; ++x) paint(x);
+  }
+
+ private:
+  static constexpr double kLeast_px = 0.5;
+  /// A pixel's centre is at most so far from a circle that touches it.
+  static constexpr double kEdge_px = 0.7072;
+
+  /// The straight edge that covers as much as the circle.
+  static double radius_of_edge(double radius) {
+    return radius > 0 ? std::sqrt(std::max(0.0, radius * radius - 1.0 / 12)) : -2 * kEdge_px;
+  }
+  /// Pixels of a row so far below the centre that have theirs within a distance of it.
+  static Run within(double distance, double down, double at) {
+    const double left = distance * distance - down * down;
+    if (distance <= 0 || left <= 0) return {};
+    const double half = std::sqrt(left);
+    return {whole(std::ceil(at - half - 0.5)), whole(std::floor(at + half - 0.5)) + 1};
+  }
+  Rgb over(const Rgb& behind, double x, double y) const {
+    const double distance = std::sqrt(x * x + y * y);
+    const auto covered = [&](double radius) {
+      const double inside = radius - distance;
+      if (std::fabs(inside) >= kEdge_px || distance == 0) return inside > 0 ? 1.0 : 0.0;
+      return half_plane(inside, x / distance, y / distance);
+    };
+    const double outer = opacity_ * covered(outer_);
+    const double inner = inner_ < outer_ ? opacity_ * covered(inner_) : outer;
+    Rgb samples = behind;
+    for (std::size_t i = 0; i < 3; ++i) {
+      samples[i] += inner * (fill_[i] - behind[i]) + (outer - inner) * (rim_[i] - behind[i]);
+    }
+    return samples;
+  }
+
+  Rgb fill_;
+  Rgb rim_;
+  double opacity_ = 1;
+  double outer_ = 0;
+  double inner_ = 0;  ///< of the rim
+};
+
+/// The same of a block.
+class MovingBlock {
+ public:
+  explicit MovingBlock(const ExposedBlock& block) : block_(block), cover_(block) {}
+
+  bool repeats(int y) const { return cover_.of_row(y) == cover_.of_row(y - 1); }
+  Run rows(const Point& /*at*/) const {
+    return {whole(std::floor(block_.bounds.y)),
+            whole(std::ceil(block_.bounds.y + block_.bounds.height))};
+  }
+
+  template <typename Solid, typename Edge>
+  void visit_row(const Point& at, int y, const Run& columns, const Solid& solid,
+                 const Edge& edge) const {
+    const Cover row = cover_.of_row(y);
+    const double right = at.x + block_.bounds.width;
+    const double line = cover_.line_px();
+    const Run run = cut({whole(std::floor(at.x)), whole(std::ceil(right))}, columns);
+    Run inside{whole(std::ceil(at.x + line)), whole(std::floor(right - line))};
+    if (row.outer < 1 || inside.begin >= inside.end) inside = {run.end, run.end};
+    inside = cut(inside, run);
+    const auto paint = [&](int x) {
+      const Cover column = cover_.of_column(x, at.x);
+      edge(x, [&](const Rgb& behind) { return over(behind, column, row); });
+    };
+    for (int x = run.begin; x < inside.begin; ++x) paint(x);
+    if (inside.begin < inside.end) solid(inside, over({}, {1, 1, 0}, row));
+    for (int x = inside.end; x < run.end; ++x) paint(x);
+  }
+
+ private:
+  Rgb over(const Rgb& behind, const Cover& column, const Cover& row) const {
+    const PixelCover pixel{block_, column, row};
+    return {pixel.over(behind[0], &Color::red), pixel.over(behind[1], &Color::green),
+            pixel.over(behind[2], &Color::blue)};
+  }
+
+  const ExposedBlock& block_;
+  BlockCover cover_;
+};
+
+/// A shape that comes into an area, and its places.
+struct Mover {
+  std::variant<MovingBlock, MovingDisc> shape;
+  std::span<const Point> places;
+
+  bool repeats(int y) const {
+    return std::visit([&](const auto& any) { return any.repeats(y); }, shape);
+  }
+};
+
+/// Some rows of pixels, to which pictures of moments are added.
+class MomentSums {
+ public:
+  MomentSums(const PixelRect& area, const Light& light, const SurfacePixels& pixels,
+             std::span<const Mover> movers)
+      : area_(area),
+        light_(light),
+        pixels_(pixels),
+        stride_(static_cast<std::size_t>(area.width_px) + 1),
+        sums_(stride_ * static_cast<std::size_t>(area.height_px)) {
+    for (int sample = 0; sample < 256; ++sample) {
+      lights_[static_cast<std::size_t>(sample)] = whole_light(sample);
+    }
+    for (int y = area.y_px; y < area.y_px + area.height_px; ++y) {
+      const auto row = [&](int of) { return std::span(pixels.at(area.x_px, of), stride_ - 1); };
+      repeats_.push_back(y > area.y_px && std::ranges::equal(row(y), row(y - 1)) &&
+                         std::ranges::all_of(movers, [&](const Mover& m) { return m.repeats(y); }));
+    }
+  }
+
+  void next_moment() { ++moment_; }
+
+  template <typename Shape>
+  void add(const Shape& shape, const Point& place) {
+    const Run rows = cut(shape.rows(place), {area_.y_px, area_.y_px + area_.height_px});
+    for (int y = rows.begin; y < rows.end; ++y) {
+      if (repeats_[static_cast<std::size_t>(y - area_.y_px)]) continue;
+      shape.visit_row(
+          place, y, {area_.x_px, area_.x_px + area_.width_px},
+          [&](const Run& run, const Rgb& samples) { add_solid(y, run, samples); },
+          [&](int x, const auto& over) { add_edge(x, y, over); });
+    }
+  }
+
+  /// Makes each pixel the mean of all moments.
+  void finish() {
+    for (int y = area_.y_px; y < area_.y_px + area_.height_px; ++y) {
+      if (repeats_[static_cast<std::size_t>(y - area_.y_px)]) {
+        std::copy_n(pixels_.at(area_.x_px, y - 1), area_.width_px, pixels_.at(area_.x_px, y));
+      } else {
+        finish_row(y);
+      }
+    }
+  }
+
+ private:
+  struct PixelSum {
+    LightSum edges{};               ///< what edges add to the light, which may be negative
+    LightSum solid{};               ///< light of the runs that begin here, less of those that end
+    std::int32_t solid_begins = 0;  ///< and the number of these
+    std::int32_t moment = 0;        ///< the last in which an edge was here
+    Rgb samples{};                  ///< of that moment
+    LightSum light{};               ///< of these
+  };
+
+  void finish_row(int y) {
+    LightSum solid{};
+    std::int64_t covered = 0;
+    for (int x = area_.x_px; x < area_.x_px + area_.width_px; ++x) {
+      const PixelSum& pixel = at(x, y);
+      covered += pixel.solid_begins;
+      for (std::size_t i = 0; i < 3; ++i) solid[i] += pixel.solid[i];
+      if (covered > 0 || pixel.moment > 0) set_mean(pixel, solid, covered, *pixels_.at(x, y));
+    }
+  }
+
+  PixelSum& at(int x, int y) {
+    return sums_[static_cast<std::size_t>(y - area_.y_px) * stride_ +
+                 static_cast<std::size_t>(x - area_.x_px)];
+  }
+  static Rgb samples_of(std::uint32_t pixel) {
+    return {double(pixel >> 16 & 0xFF), double(pixel >> 8 & 0xFF), double(pixel & 0xFF)};
+  }
+  LightSum lights_of(std::uint32_t pixel) const {
+    return {lights_[pixel >> 16 & 0xFF], lights_[pixel >> 8 & 0xFF], lights_[pixel & 0xFF]};
+  }
+  std::int64_t whole_light(double sample) const {
+    return static_cast<std::int64_t>(light_.of(sample) * kLightUnit);
+  }
+
+  void add_solid(int y, const Run& run, const Rgb& samples) {
+    PixelSum& begin = at(run.begin, y);
+    PixelSum& end = at(run.end, y);
+    ++begin.solid_begins;
+    --end.solid_begins;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int64_t light = whole_light(samples[i]);
+      begin.solid[i] += light;
+      end.solid[i] -= light;
+    }
+  }
+
+  /// Where several shapes have their edges in one pixel, each is painted over those before.
+  template <typename Over>
+  void add_edge(int x, int y, const Over& over) {
+    PixelSum& pixel = at(x, y);
+    if (pixel.moment < moment_) {
+      const std::uint32_t background = *pixels_.at(x, y);
+      pixel.moment = moment_;
+      pixel.samples = samples_of(background);
+      pixel.light = lights_of(background);
+    }
+    pixel.samples = over(pixel.samples);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int64_t light = whole_light(pixel.samples[i]);
+      pixel.edges[i] += light - pixel.light[i];
+      pixel.light[i] = light;
+    }
+  }
+
+  void set_mean(const PixelSum& pixel, const LightSum& solid, std::int64_t covered,
+                std::uint32_t& word) const {
+    const LightSum background = lights_of(word);
+    std::uint32_t mean = word & 0xFF000000U;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int64_t sum = pixel.edges[i] + solid[i] + (moment_ - covered) * background[i];
+      const double light = double(sum) / (double(moment_) * kLightUnit);
+      mean |= std::uint32_t{light_.sample(light)} << (16 - 8 * i);
+    }
+    word = mean;
+  }
+
+  PixelRect area_;
+  const Light& light_;
+  const SurfacePixels& pixels_;
+  std::array<std::int64_t, 256> lights_{};  // of whole samples
+  std::size_t stride_;
+  std::vector<PixelSum> sums_;  // one more a row, where runs may end
+  std::vector<bool> repeats_;   // of each row, whether it is as the one above
+  std::int32_t moment_ = 0;     // from 1 on
+};
+
+std::vector<Mover> movers_in(const MovingShapesItem& item, const PixelRect& area) {
+  std::vector<Mover> movers;
+  for (const MovingShape& moving : item.shapes) {
+    const PixelRect pixels = pixels_of(extent_of(moving), area);
+    if (pixels.width_px <= 0 || pixels.height_px <= 0) continue;
+    if (const auto* disc = std::get_if<DiscItem>(&moving.shape)) {
+      movers.push_back({MovingDisc(*disc), moving.places.view()});
+    } else {
+      movers.push_back({MovingBlock(std::get<ExposedBlock>(moving.shape)), moving.places.view()});
+    }
+  }
+  return movers;
+}
+
+}  // namespace
+
+/// In bands of rows, which bounds the memory.
+void Painter::paint_exposed(cairo_t& cr, const MovingShapesItem& item, const PixelRect& area) {
+  constexpr int kBand_px = 32;
+  if (!has_pixels_of_picture(cr)) return paint_still(cr, item);
+  const PixelRect moving = moving_area(item, area);
+  const std::vector<Mover> movers = movers_in(item, moving);
+  if (movers.empty()) return;
+  const SurfacePixels pixels(cr, area);
+  for (int y = moving.y_px; y < moving.y_px + moving.height_px; y += kBand_px) {
+    const int height = std::min(kBand_px, moving.y_px + moving.height_px - y);
+    MomentSums sums({moving.x_px, y, moving.width_px, height}, light(), pixels, movers);
+    for (std::size_t moment = 0; moment < movers.front().places.size(); ++moment) {
+      check_stop();
+      sums.next_moment();
+      for (const auto& [shape, places] : movers) {
+        std::visit([&](const auto& any) { sums.add(any, places[moment]); }, shape);
+      }
+    }
+    sums.finish();
+  }
+}
+
+}  // namespace piblocks
