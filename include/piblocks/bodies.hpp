@@ -89,8 +89,7 @@ inline constexpr std::int64_t kMaxExactCollisions = 100'000;
 inline constexpr std::int64_t kMaxBodyCollisions = 2'000'000;
 
 /// All collisions of bodies from time 0 on, by index. Several collisions at one instant happen in
-/// the order of their pairs: (0,1), (0,2), …, (1,2), …, walls after bodies. Const members are
-/// thread-safe.
+/// the order of TieRank (contact.hpp). Const members are thread-safe.
 class BodyLog : public Timeline {
  public:
   const BodySystem& system() const noexcept { return system_; }

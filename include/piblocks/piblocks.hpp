@@ -6,6 +6,7 @@
 #include <piblocks/block_system.hpp>
 #include <piblocks/bodies.hpp>
 #include <piblocks/compare.hpp>
+#include <piblocks/contact.hpp>
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>

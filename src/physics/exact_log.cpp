@@ -1,3 +1,4 @@
+#include <piblocks/contact.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
@@ -19,31 +20,24 @@ struct ExactCollision {
   BlockSystem blocks;
 };
 
-/// Time until a gap that changes at `rate` is closed, if ever.
-std::optional<Rational> closing_time(const Rational& gap, const Rational& rate) {
-  if (rate >= 0) return std::nullopt;
-  return Rational(-gap / rate);
-}
-
 void advance(BlockSystem& system, const Rational& duration) {
   system.blue.position += system.blue.velocity * duration;
   system.red.position += system.red.velocity * duration;
 }
 
-/// The relative velocity is reversed, the centre of mass keeps its own.
 void collide_blocks(BlockSystem& system) {
   Block& blue = system.blue;
   Block& red = system.red;
-  const Rational centre =
-      (blue.mass * blue.velocity + red.mass * red.velocity) / (blue.mass + red.mass);
-  blue.velocity = 2 * centre - blue.velocity;
-  red.velocity = 2 * centre - red.velocity;
+  const Rational closing = blue.velocity - red.velocity;
+  blue.velocity -= velocity_change(closing, share_of_change(blue.mass, red.mass));
+  red.velocity += velocity_change(closing, share_of_change(red.mass, blue.mass));
 }
 
 /// Performs the next collision.
 std::optional<ExactCollision> next_after(const Rational& time, BlockSystem now) {
-  const auto to_wall = closing_time(now.blue_gap(), now.blue.velocity);
-  const auto to_blocks = closing_time(now.blocks_gap(), now.red.velocity - now.blue.velocity);
+  const auto to_wall = time_to_contact(now.blue_gap(), Rational(-now.blue.velocity));
+  const auto to_blocks =
+      time_to_contact(now.blocks_gap(), Rational(now.blue.velocity - now.red.velocity));
   if (!to_wall && !to_blocks) return std::nullopt;
   const bool blocks = to_blocks && (!to_wall || *to_blocks <= *to_wall);
   const Rational& wait = blocks ? *to_blocks : *to_wall;

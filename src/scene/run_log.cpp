@@ -46,8 +46,8 @@ std::optional<std::string> tie_note(const RunLog& log, const Integer& last) {
   const std::optional<Integer> tie = log.bodies() ? log.bodies()->first_tie() : std::nullopt;
   if (!tie || *tie > last) return std::nullopt;
   return fmt::format(
-      "at t = {} a body has several collisions at once: these happen in the order of the file, and "
-      "another order may end otherwise",
+      "at t = {} a body has several collisions at once: those of movable bodies come first, in the "
+      "order of the file; another order may end otherwise",
       log.bodies()->collision_time(*tie).hi);
 }
 

@@ -34,8 +34,8 @@ TEST_F(BodiesCli, SayWhenTheOrderOfPairsDecides) {
         "[[body]]\nposition = 0\nvelocity = 1\n[[body]]\nposition = 3\n[[body]]\nposition = 6\n"
         "velocity = -1\n");
   const std::string note =
-      "piblocks: note: at t = 2 a body has several collisions at once: these happen in the order "
-      "of the file, and another order may end otherwise\n";
+      "piblocks: note: at t = 2 a body has several collisions at once: those of movable bodies "
+      "come first, in the order of the file; another order may end otherwise\n";
   for (const Arguments& command : {Arguments{"count", "tie.toml"}, Arguments{"log", "tie.toml"},
                                    Arguments{"state", "tie.toml", "--at", "3"}}) {
     const CommandResult result = piblocks(command);

@@ -33,10 +33,17 @@ class ExactWalk {
     const auto consider = [&](const std::optional<Rational>& wait, std::size_t i, std::size_t j) {
       if (wait && (!found || time_ + *wait < found->time)) found = {time_ + *wait, i, j};
     };
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      for (std::size_t j = i + 1; j < bodies_.size(); ++j) consider(wait(i, j), i, j);
-      for (std::size_t w = 0; w < walls_.size(); ++w) {
-        consider(wait_for_wall(i, w), i, bodies_.size() + w);
+    // Pairs of movable blocks come first, then those with something immovable.
+    for (const bool has_immovable : {false, true}) {
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (!bodies_[i].mass) continue;
+        for (std::size_t j = has_immovable ? 0 : i + 1; j < bodies_.size(); ++j) {
+          const bool is_immovable = !bodies_[j].mass;
+          if (is_immovable == has_immovable) consider(wait(i, j), std::min(i, j), std::max(i, j));
+        }
+        for (std::size_t w = 0; has_immovable && w < walls_.size(); ++w) {
+          consider(wait_for_wall(i, w), i, bodies_.size() + w);
+        }
       }
     }
     if (!found) return found;
