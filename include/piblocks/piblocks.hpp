@@ -12,11 +12,11 @@
 #include <piblocks/exact.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
+#include <piblocks/log.hpp>
 #include <piblocks/pacing.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
-#include <piblocks/timeline.hpp>
 #include <piblocks/version.hpp>

@@ -202,7 +202,7 @@ void note_convention(const Script& script) {
   for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
 }
 
-void note_ties(const RunLog& run, const Integer& last) {
+void note_ties(const Log& run, const Integer& last) {
   if (const auto note = tie_note(run, last)) say("piblocks: note: {}\n", *note);
 }
 

@@ -77,6 +77,6 @@ void add_engine(Command& command);
 void note_convention(const Script& script);
 /// Says on standard error that the order of pairs decided what happened up to this collision, if it
 /// did.
-void note_ties(const RunLog& run, const Integer& last);
+void note_ties(const Log& run, const Integer& last);
 
 }  // namespace piblocks::cli

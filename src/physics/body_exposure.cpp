@@ -56,15 +56,16 @@ Travel scaled(const Travel& range, int sign) {
 }
 
 /// Where the bodies are two blocks, the closed form sums up what cannot be listed.
-void use_closed_form(const ClosedBlocks& closed, const Rational& begin, const Rational& end,
+void use_closed_form(const CollisionLog& log, const Rational& begin, const Rational& end,
                      BodyExposure& exposure) {
-  Exposure blocks = expose(closed.log, begin, end);
-  exposure.pieces[closed.blue] = pieces_of(blocks, BlockName::blue, closed.sign);
-  exposure.pieces[closed.red] = pieces_of(blocks, BlockName::red, closed.sign);
-  exposure.ranges[closed.blue] = scaled(blocks.blue_range, closed.sign);
-  exposure.ranges[closed.red] = scaled(blocks.red_range, closed.sign);
+  const TwoBlocks& closed = log.two_blocks();
+  Exposure blocks = log.expose(begin, end);
+  exposure.pieces[closed.blue] = pieces_of(blocks, BlockName::blue, closed.side);
+  exposure.pieces[closed.red] = pieces_of(blocks, BlockName::red, closed.side);
+  exposure.ranges[closed.blue] = scaled(blocks.blue_range, closed.side);
+  exposure.ranges[closed.red] = scaled(blocks.red_range, closed.side);
   if (!blocks.area_below) return;
-  exposure.area_below = [blocks = std::move(blocks), blue = closed.blue, sign = closed.sign](
+  exposure.area_below = [blocks = std::move(blocks), blue = closed.blue, sign = closed.side](
                             std::size_t body, double position) {
     return area_below(blocks, body == blue ? BlockName::blue : BlockName::red, sign, position);
   };
@@ -78,10 +79,10 @@ Travel range_of(const std::vector<BodyPiece>& pieces) {
 
 }  // namespace
 
-BodyExposure expose(const BodyLog& log, const Rational& begin, const Rational& end) {
+BodyExposure expose(const Log& log, const Rational& begin, const Rational& end) {
   if (end < begin) return expose(log, end, begin);
   BodyExposure exposure;
-  if (const std::optional<ClosedBlocks> closed = closed_blocks(log)) {
+  if (const CollisionLog* const closed = log.pair()) {
     // A third body, if there is one, is the wall.
     for (const BodyMotion& at_rest : motions_at_start(log.system())) {
       exposure.pieces.push_back({{0, 1, at_rest.position, at_rest.position}});

@@ -1,4 +1,4 @@
-#include <piblocks/bodies.hpp>
+#include <piblocks/log.hpp>
 
 #include <cmath>
 
@@ -57,36 +57,22 @@ bool is_at_wall(const BodySystem& system, const BodyCollision& collision) {
   return is_fixed(collision.first) || is_fixed(collision.second);
 }
 
-std::optional<Impact> impact_of_bodies(const BodyLog& log, CollisionKind kind, const Integer& first,
-                                       const Integer& last) {
-  const BodySystem& system = log.system();
-  std::optional<Impact> sum;
-  for (Integer index = first; index <= last; ++index) {
-    const BodyCollision collision = log.collision(index);
-    if ((kind == CollisionKind::wall) != is_at_wall(system, collision)) continue;
-    const bool is_first_fixed = !system.bodies[collision.first].mass;
-    const BodyMotion& seen = is_first_fixed ? collision.second_after : collision.first_after;
-    if (!sum) sum = Impact{kind, collision.time, 0, seen.position[0]};
-    sum->impulse += impulse_of(system, collision);
-  }
-  const double usual = usual_impulse(system);
-  if (sum && usual > 0) sum->impulse /= usual;
-  return sum;
-}
-
 }  // namespace
 
-std::optional<Impact> impact(const Timeline& log, CollisionKind kind, const Integer& first,
-                             const Integer& last) {
-  if (const auto* const bodies = dynamic_cast<const BodyLog*>(&log)) {
-    return impact_of_bodies(*bodies, kind, first, last);
+std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
+                                  const Integer& last) const {
+  std::optional<Impact> sum;
+  for (Integer index = first; index <= last; ++index) {
+    const BodyCollision found = collision(index);
+    if ((kind == CollisionKind::wall) != is_at_wall(system(), found)) continue;
+    const bool is_first_fixed = !system().bodies[found.first].mass;
+    const BodyMotion& seen = is_first_fixed ? found.second_after : found.first_after;
+    if (!sum) sum = Impact{kind, found.time, 0, seen.position[0]};
+    sum->impulse += impulse_of(system(), found);
   }
-  return impact(dynamic_cast<const CollisionLog&>(log), kind, first, last);
-}
-
-Integer count_near(const Timeline& log, const Time& time) {
-  const auto* const blocks = dynamic_cast<const CollisionLog*>(&log);
-  return blocks != nullptr ? count_near(*blocks, time) : log.count_at(to_rational(time));
+  const double usual = usual_impulse(system());
+  if (sum && usual > 0) sum->impulse /= usual;
+  return sum;
 }
 
 }  // namespace piblocks

@@ -3,7 +3,7 @@
 // are certain to be the true ones.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/log.hpp>
 
 #include <limits>
 #include <optional>

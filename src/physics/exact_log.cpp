@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "physics/blocks.hpp"
-#include "physics/precise_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -76,13 +75,13 @@ Gaps gaps_of(const BlockSystem& blocks) {
   return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
 }
 
-class ExactLog final : public PreciseLog {
+class ExactLog final : public CollisionLog {
  public:
-  explicit ExactLog(const BlockSystem& system)
-      : PreciseLog(system), start_{0, CollisionKind::wall, system} {
+  explicit ExactLog(const TwoBlocks& two_blocks)
+      : CollisionLog(two_blocks), start_{0, CollisionKind::wall, blocks()} {
     // Before time 0 the velocities just after a collision are the opposite of those just before it
     // in the reversed run.
-    for (ExactCollision& event : run(reversed(system))) {
+    for (ExactCollision& event : run(reversed(blocks()))) {
       ExactCollision collision{-event.time, event.kind, event.blocks};
       collision.blocks.blue.velocity = start_.blocks.blue.velocity;
       collision.blocks.red.velocity = start_.blocks.red.velocity;
@@ -90,31 +89,33 @@ class ExactLog final : public PreciseLog {
       events_.insert(events_.begin(), std::move(collision));
     }
     const Integer past = events_.size();
-    for (ExactCollision& event : run(system)) events_.push_back(std::move(event));
+    for (ExactCollision& event : run(blocks())) events_.push_back(std::move(event));
     set_range(1 - past, events_.size() - past);
   }
 
-  Collision collision(const Integer& index) const override {
+  Collision blocks_collision(const Integer& index) const override {
     return rounded_collision(index, event(index));
   }
 
-  BlockState state_at(const Rational& time) const override {
+  BlockState blocks_at(const Rational& time) const override {
     const Integer count = first_index() - 1 + Integer(happened(time) - events_.begin());
-    const Collision at = rounded_collision(count, {time, CollisionKind::wall, blocks_at(time)});
+    const Collision at = rounded_collision(count, {time, CollisionKind::wall, system_at(time)});
     return {at.index, at.blue, at.red};
   }
 
   Rational time_after(const Integer& index) const override {
-    require_last(index, state_at(event(index).time).count);
+    require_last(index, blocks_at(event(index).time).count);
     return event(index).time;
   }
 
-  PositionBounds bounds_at(const Rational& time) const override {
+  std::optional<PositionBounds> bounds_at(const Rational& time) const override {
     constexpr double kRounding = 0x1p-53;
-    const BlockState now = state_at(time);
-    return {kRounding * std::fabs(now.blue.position), kRounding * std::fabs(now.red.position)};
+    const BlockState now = blocks_at(time);
+    return PositionBounds{kRounding * std::fabs(now.blue.position),
+                          kRounding * std::fabs(now.red.position)};
   }
-  Gaps gaps_at(const Rational& time) const override { return gaps_of(blocks_at(time)); }
+  bool is_exact(const Integer& /*index*/) const override { return true; }
+  Gaps gaps_at(const Rational& time) const override { return gaps_of(system_at(time)); }
   Gaps gaps_at_collision(const Integer& index) const override {
     return gaps_of(event(index).blocks);
   }
@@ -122,7 +123,7 @@ class ExactLog final : public PreciseLog {
  private:
   using Events = std::vector<ExactCollision>;
 
-  BlockSystem blocks_at(const Rational& time) const {
+  BlockSystem system_at(const Rational& time) const {
     const auto next = happened(time);
     const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
     BlockSystem blocks = since.blocks;
@@ -143,10 +144,8 @@ class ExactLog final : public PreciseLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system) {
-  return std::make_unique<ExactLog>(system);
+std::unique_ptr<CollisionLog> make_exact_log(const TwoBlocks& blocks) {
+  return std::make_unique<ExactLog>(blocks);
 }
-
-bool is_exact(const CollisionLog& log) { return dynamic_cast<const ExactLog*>(&log) != nullptr; }
 
 }  // namespace piblocks

@@ -144,11 +144,11 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
   if (!job.overwrite) check_names(*job.bundle);
   FileSet files(job.bundle->folder, "bundle");
   const auto& scene = std::get<Scene>(job.script);
-  const RunLog run(scene);
-  const Schedule schedule = make_schedule(scene, run.timeline());
+  const std::unique_ptr<Log> log = log_of(scene);
+  const Schedule schedule = make_schedule(scene, *log);
   write_poster(job, frames_before_reversal(scene, schedule) - 1, files);
-  write_texts(job, describe_video(scene, video_count(scene, run, schedule)),
-              captions(scene, run, schedule), files);
+  write_texts(job, describe_video(scene, video_count(scene, *log, schedule)),
+              captions(scene, *log, schedule), files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);

@@ -95,9 +95,9 @@ std::string base64_text(std::string_view text) {
 }
 
 void write_page(const Scene& scene, const fs::path& video, std::int64_t frames, OutputFile& page) {
-  const RunLog run(scene);
-  const Schedule schedule = make_schedule(scene, run.timeline());
-  const VideoCount count = video_count(scene, run, schedule);
+  const std::unique_ptr<Log> log = log_of(scene);
+  const Schedule schedule = make_schedule(scene, *log);
+  const VideoCount count = video_count(scene, *log, schedule);
   const Rational& rate = scene.view.frame_rate;
   page.write(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
@@ -106,7 +106,7 @@ void write_page(const Scene& scene, const fs::path& video, std::int64_t frames, 
       fmt::arg("rate", rate.get_num().get_str() + "/" + rate.get_den().get_str()),
       fmt::arg("frames", frames), fmt::arg("loop", scene.pacing.loop ? "loop " : "")));
   add_video(video, page);
-  page.write(fmt::format(kFoot, fmt::arg("captions", base64_text(captions(scene, run, schedule))),
+  page.write(fmt::format(kFoot, fmt::arg("captions", base64_text(captions(scene, *log, schedule))),
                          fmt::arg("description", escaped(describe_video(scene, count))),
                          fmt::arg("script", kPageScript)));
 }

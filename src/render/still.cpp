@@ -55,12 +55,12 @@ void write_picture(const std::string& output, const char* command, const std::st
 
 FilmRun run_of(const Scene& scene) {
   require_valid(problems_of(scene));
-  return {scene, RunLog(scene), FilmUse::pictures};
+  return {scene, log_of(scene), FilmUse::pictures};
 }
 
 DrawList picture_of(const Scene& scene, const Instant& instant) {
   const FilmRun run = run_of(scene);
-  return run.still(time_of(instant, run.timeline()));
+  return run.still(time_of(instant, run.log()));
 }
 
 DrawList picture_of(const Storyboard& story, const Instant& instant) {
@@ -95,7 +95,7 @@ struct ShownCollisions {
   Integer size() const { return last > before ? Integer(last - before) : 0; }
 };
 
-ShownCollisions collisions_of(const Span& span, const Timeline& log) {
+ShownCollisions collisions_of(const Span& span, const Log& log) {
   return {log.count_at(span.from), log.count_at(span.to)};
 }
 
@@ -150,11 +150,10 @@ void render_still(const Script& script, const Instant& instant, const std::strin
 std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
   check_count(pictures < 0 ? 0 : static_cast<std::size_t>(pictures));
   require_valid(problems_of(scene));
-  const RunLog run(scene);
-  const Timeline& log = run.timeline();
-  const Span span = span_of(scene, log);
+  const std::unique_ptr<Log> log = log_of(scene);
+  const Span span = span_of(scene, *log);
   if (by == Spacing::time) return spread_over_time(span, pictures);
-  const ShownCollisions shown = collisions_of(span, log);
+  const ShownCollisions shown = collisions_of(span, *log);
   if (by == Spacing::count) check_spread_over_count(scene, shown, pictures);
   return by.value_or(usual_spacing(scene, span, shown, pictures)) == Spacing::count
              ? spread_over_count(span, shown, pictures)
@@ -168,7 +167,7 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   const FilmRun run = run_of(scene);
   std::vector<Rational> times;
   times.reserve(instants.size());
-  for (const Instant& instant : instants) times.push_back(time_of(instant, run.timeline()));
+  for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
   const std::vector<std::string> captions = sheet_captions(scene, instants, times);
   std::vector<CaptionedPicture> pictures;
   Progress progress{0, static_cast<std::int64_t>(times.size())};

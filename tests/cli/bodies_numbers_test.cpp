@@ -79,9 +79,8 @@ TEST_F(BodiesCli, CountsAreThoseOfTheLog) {
 }
 
 TEST_F(BodiesCli, CountsOfEndlessRunsNeedATime) {
-  expect_line(
-      {"count", "endless.toml"},
-      "time.to: bodies between walls may collide for ever; say until when, as time.to = 10");
+  expect_line({"count", "endless.toml"},
+              "time.to: these bodies may collide for ever; say until when, as time.to = 10");
   for (const char* to : {"1", "5", "50", "1/3"}) {
     const auto rows = lines(output_of({"log", "endless.toml", "--to", to}));
     EXPECT_EQ(first_line_of({"count", "endless.toml", "--to", to}),

@@ -25,7 +25,7 @@ std::vector<Meeting> meetings_of(const BodySystem& system, const Rational& until
   std::vector<std::size_t> numbers;
   std::size_t movable = 0;
   for (const Body& body : system.bodies) numbers.push_back(body.mass ? movable++ : kImmovable);
-  const auto log = make_body_log(system, until);
+  const auto log = make_log(system, until);
   std::vector<Meeting> meetings;
   for (Integer index = 1; index <= log->count_at(until); ++index) {
     const BodyCollision found = log->collision(index);
@@ -158,7 +158,7 @@ TEST(TiesTest, PairsOfMovableBodiesComeBeforeTheWall) {
         {.position = {Rational(x)}, .velocity = {Rational(-(x - 1), 2) - Rational(1, 2)}});
   }
   system.walls = {{"wall", {0}, {1}}};
-  const auto log = make_body_log(system, 100);
+  const auto log = make_log(system, 100);
   const auto pair = [&](int index) {
     const BodyCollision found = log->collision(index);
     return std::pair(int(found.first), int(found.second));

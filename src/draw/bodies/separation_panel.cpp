@@ -39,9 +39,9 @@ struct Meeting {
   double after_from = 0;
 };
 
-Meeting first_meeting(const BodyLog& log, const Span& span) {
+Meeting first_meeting(const Log& log, const Span& span) {
   const std::size_t bodies = log.system().bodies.size();
-  for (Integer k = log.count_at(span.from) + 1; k <= log.size(); ++k) {
+  for (Integer k = log.count_at(span.from) + 1; k <= log.last(); ++k) {
     const BodyCollision c = log.collision(k);
     if (c.second >= bodies) continue;
     const Rational time = to_rational(c.time);
@@ -148,7 +148,7 @@ class SeparationPanel {
   }
 
   /// The distance as it is.
-  void add_path(const BodyLog& log) {
+  void add_path(const Log& log) {
     const double from = to_double(axis_.span().from);
     const double to = to_double(axis_.span().to);
     const auto add = [&](std::vector<Point> points) {

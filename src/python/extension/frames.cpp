@@ -80,7 +80,7 @@ class Pictures {
     if (!run_) {
       const Scene& scene = std::get<Scene>(script_->script);
       require_valid(problems_of(scene));
-      run_ = std::make_unique<const FilmRun>(scene, RunLog(scene), FilmUse::pictures);
+      run_ = std::make_unique<const FilmRun>(scene, log_of(scene), FilmUse::pictures);
     }
     return *run_;
   }
