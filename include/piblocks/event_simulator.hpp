@@ -4,9 +4,11 @@
 // Scalar is double, long double or a Boost.Multiprecision float.
 #pragma once
 
+#include <piblocks/contact.hpp>
 #include <piblocks/error.hpp>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +21,6 @@
 #include <vector>
 
 namespace piblocks {
-
-/// The mass of a wall: a body with it is never deflected. It may move.
-template <typename Scalar>
-inline const Scalar kInfiniteMass = std::numeric_limits<Scalar>::infinity();
 
 /// A ball in free flight (in one dimension a block: an interval). Units are the caller's own.
 template <typename Scalar, int Dim>
@@ -70,17 +68,6 @@ template <typename Scalar, int Dim>
 Eigen::Matrix<Scalar, Dim, 1> direction(const Eigen::Matrix<Scalar, Dim, 1>& v) {
   const Eigen::Matrix<Scalar, Dim, 1> scaled = v / v.cwiseAbs().maxCoeff();
   return scaled / norm(scaled);
-}
-
-/// other / (own + other), the share of a collision's velocity change for the body with mass `own`.
-/// At most one mass is infinite.
-template <typename Scalar>
-Scalar share_of_change(const Scalar& own, const Scalar& other) {
-  using std::isinf;
-  const Scalar sum = own + other;
-  // This quotient saturates at 0 and infinity where it should, but rounds once more.
-  if (isinf(sum)) return Scalar(Scalar(1) / (Scalar(1) + own / other));
-  return Scalar(other / sum);
 }
 
 }  // namespace detail
@@ -141,9 +128,8 @@ void collide(Particle<Scalar, Dim>& p, Particle<Scalar, Dim>& q) {
   const Scalar closing_speed = detail::dot(Vector(p.velocity - q.velocity), normal);
   // Rounding can leave a grazing pair receding at contact; an impulse would pull it together.
   if (closing_speed <= 0) return;
-  const Scalar change = Scalar(2) * closing_speed;
-  p.velocity -= Scalar(change * detail::share_of_change(p.mass, q.mass)) * normal;
-  q.velocity += Scalar(change * detail::share_of_change(q.mass, p.mass)) * normal;
+  p.velocity -= velocity_change(closing_speed, share_of_change(p.mass, q.mass)) * normal;
+  q.velocity += velocity_change(closing_speed, share_of_change(q.mass, p.mass)) * normal;
 }
 
 /// One collision. Together with the particles at time 0, a run's events describe it completely.
@@ -159,9 +145,8 @@ struct CollisionEvent {
 
 /// Advances particles from one pair collision to the next.
 ///
-/// Pairs are ordered (0,1), (0,2), …, (1,2), …; of several collisions at the same time the first
-/// pair's is performed first. With the order blue, red, wall a corner hit thus begins with the
-/// blocks, which is the limit that counts the digits of pi.
+/// Of several collisions at the same time the one that comes first by TieRank is performed first. A
+/// corner hit thus begins with the blocks, which is the limit that counts the digits of pi.
 ///
 /// A pair that has collided does not collide again before one of the two has met another body: two
 /// free balls separate for ever. The rule also holds against rounding, so no pair can trap the run.
@@ -182,9 +167,8 @@ class EventSimulator {
   explicit EventSimulator(std::vector<Body> particles)
       : particles_(std::move(particles)), waiting_(particles_.size() * particles_.size()) {
     validate();
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      for (std::size_t j = i + 1; j < particles_.size(); ++j) predict(i, j);
-    }
+    list_pairs();
+    for (const auto& [i, j] : pairs_) predict(i, j);
     next_ = soonest_pair();
   }
 
@@ -253,16 +237,30 @@ class EventSimulator {
     return i < j ? i * particles_.size() + j : j * particles_.size() + i;
   }
 
+  /// All pairs that can collide, in the order in which simultaneous collisions happen.
+  void list_pairs() {
+    const auto rank_of = [this](const Pair& pair) {
+      return TieRank::of(
+          static_cast<std::uint32_t>(pair.first), !particles_[pair.first].is_immovable(),
+          static_cast<std::uint32_t>(pair.second), !particles_[pair.second].is_immovable());
+    };
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      for (std::size_t j = i + 1; j < particles_.size(); ++j) {
+        const bool can_collide = !particles_[i].is_immovable() || !particles_[j].is_immovable();
+        if (can_collide) pairs_.emplace_back(i, j);
+      }
+    }
+    std::ranges::sort(pairs_, {}, rank_of);
+  }
+
   std::optional<Pair> soonest_pair() const {
     std::optional<Pair> soonest;
     const Scalar* shortest = nullptr;
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      for (std::size_t j = i + 1; j < particles_.size(); ++j) {
-        const std::optional<Scalar>& wait = waiting_[slot(i, j)];
-        if (!wait || (shortest && !(*wait < *shortest))) continue;
-        shortest = &*wait;
-        soonest = Pair{i, j};
-      }
+    for (const Pair& pair : pairs_) {
+      const std::optional<Scalar>& wait = waiting_[slot(pair.first, pair.second)];
+      if (!wait || (shortest && !(*wait < *shortest))) continue;
+      shortest = &*wait;
+      soonest = pair;
     }
     return soonest;
   }
@@ -315,6 +313,7 @@ class EventSimulator {
   }
 
   std::vector<Body> particles_;
+  std::vector<Pair> pairs_;
   // Row-major N x N, upper triangle: the time from time_ until a pair meets. Counting down keeps
   // the digits that absolute times would lose once they are large.
   std::vector<std::optional<Scalar>> waiting_;

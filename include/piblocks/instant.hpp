@@ -11,7 +11,7 @@
 
 namespace piblocks {
 
-class Timeline;
+class Log;
 
 /// An anchor, and an offset in simulation time.
 struct Instant {
@@ -22,7 +22,7 @@ struct Instant {
     collision  ///< the collision with the index that the instant gives
   };
   Anchor anchor = Anchor::time_zero;
-  Integer index = 0;    ///< of Anchor::collision, as Timeline counts
+  Integer index = 0;    ///< of Anchor::collision, as Log counts
   Rational offset = 0;  ///< positive after the anchor, negative before it
 
   Instant() = default;
@@ -49,12 +49,12 @@ Instant parse_instant(std::string_view text);
 /// Exact text, which reads back as the same.
 std::string exact_text(const Instant& instant);
 /// Whether the run has the anchor of this instant.
-bool exists(const Instant& instant, const Timeline& log);
+bool exists(const Instant& instant, const Log& log);
 
-/// The time that the instant stands for. That of a collision is Timeline::time_after(): it has
+/// The time that the instant stands for. That of a collision is Log::time_after(): it has
 /// happened then, and the next one has not.
 /// @throws UsageError if the run has no such turn or collision, or as time_after(); SimulationError
 ///         as time_after().
-Rational time_of(const Instant& instant, const Timeline& log);
+Rational time_of(const Instant& instant, const Log& log);
 
 }  // namespace piblocks

@@ -15,7 +15,7 @@ struct Collapse {
   /// When that is, as the nearest two doubles; nothing if the collisions, each later than the one
   /// before by more, never end.
   std::optional<Time> time;
-  /// Collisions in the log, CollisionLog::size(). The blocks rest from the last of them on. Each
+  /// Collisions in the log, Log::last(). The blocks rest from the last of them on. Each
   /// collision that is not in it begins with less than 2^-200 of the energy, or less than 2^-100 of
   /// the time between the first collision and `time` remains.
   Integer listed;
@@ -25,8 +25,8 @@ struct Collapse {
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Collapse> collapse_of(const BlockSystem& system);
 
-/// Whether collision log.size() stands for infinitely many: see Collapse.
-bool is_endless(const Timeline& log);
+/// Whether log.last() stands for infinitely many collisions: see Collapse.
+inline bool is_endless(const Log& log) { return log.pair() && log.pair()->is_endless(); }
 
 /// How elastic the article's blocks have to be. With less restitution the blocks meet more often,
 /// not less: see src/physics/README.md.

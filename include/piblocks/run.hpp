@@ -1,10 +1,10 @@
-// A run: all collisions of blocks and wall, their state at any time, and the exact count.
+// What only two blocks beside something immovable have: gaps, bounds, the past, the exact count.
 // In: a BlockSystem. Out: numbers; stored and computed logs look alike.
 #pragma once
 
 #include <piblocks/block_system.hpp>
 #include <piblocks/exact.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/log.hpp>
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ struct Motion {
 
 /// One collision; velocities are those just after it.
 struct Collision {
-  Integer index;  ///< as CollisionLog counts
+  Integer index;  ///< as Log counts
   Time time;
   CollisionKind kind = CollisionKind::blocks;
   Motion blue;
@@ -39,7 +39,7 @@ struct Collision {
 
 /// The blocks at one instant.
 struct BlockState {
-  Integer count;  ///< index of the last collision until then, as CollisionLog counts
+  Integer count;  ///< index of the last collision until then, as Log counts
   Motion blue;
   Motion red;
 };
@@ -69,32 +69,94 @@ class CollisionStream {
   virtual bool read(CollisionBatch& batch) = 0;
 };
 
+struct Exposure;  // physics/exposure.hpp
+
+/// Bounds for the error of the positions of a state, in units of length.
+struct PositionBounds {
+  double blue = 0;
+  double red = 0;
+};
+
+/// The blocks as seen from the wall, without widths: they touch where y1 = y2. Near the turn
+/// of many digits both are far smaller than the rounding error of a position. 0 <= y1 <= y2.
+struct Gaps {
+  double y1 = 0;  ///< between the wall and blue
+  double y2 = 0;  ///< between the wall and red, less blue's width
+};
+
 /// All collisions of two blocks and a wall. Blocks that touch at time 0 and move apart, or blue
 /// that then leaves the wall, have had collision 0 at time 0.
-class CollisionLog : public Timeline {
+class CollisionLog : public Log {
  public:
-  const BlockSystem& system() const noexcept { return system_; }
-  /// The collision with first_index() <= index <= size().
+  const TwoBlocks& two_blocks() const noexcept { return two_blocks_; }
+  const BlockSystem& blocks() const noexcept { return two_blocks_.blocks; }
+
+  /// The collision with first_index() <= index <= last().
   /// @throws SimulationError if its time or state is beyond the range of a double.
-  virtual Collision collision(const Integer& index) const = 0;
+  virtual Collision blocks_collision(const Integer& index) const = 0;
   /// The state at any time, also before the first collision and after the last. A collision exactly
   /// at `time` has happened.
-  /// @throws SimulationError as collision().
-  virtual BlockState state_at(const Rational& time) const = 0;
-  /// Collisions first … last with first_index() <= first, last <= size(); none if last < first.
-  /// @throws SimulationError as collision().
+  /// @throws SimulationError as blocks_collision().
+  virtual BlockState blocks_at(const Rational& time) const = 0;
+  /// Collisions first … last with first_index() <= first, last <= last(); none if last < first.
+  /// @throws SimulationError as blocks_collision().
   virtual std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const;
+  /// Of blocks_at(time); nothing for an engine that steps, whose errors add up.
+  virtual std::optional<PositionBounds> bounds_at(const Rational& time) const;
+  /// Of blocks_at(time), each with a relative error of at most 16 * 2^-53 unless it is below
+  /// 1e-290. For an engine that steps they are differences of positions, with the error of these.
+  /// @throws SimulationError as blocks_at().
+  virtual Gaps gaps_at(const Rational& time) const;
+  /// The gaps at this collision: y1 is exactly 0 at the wall, and equals y2 exactly if the blocks
+  /// meet. @throws SimulationError as blocks_collision().
+  virtual Gaps gaps_at_collision(const Integer& index) const;
+  /// Whether last() stands for infinitely many: see Collapse in restitution.hpp.
+  virtual bool is_endless() const { return false; }
+  /// The interval between two times, from <= to, also before time 0. Valid after the log is gone.
+  /// @throws SimulationError as blocks_collision().
+  virtual Exposure expose(const Rational& from, const Rational& to) const;
 
-  Integer count_at(const Rational& time) const override { return state_at(time).count; }
-  Time collision_time(const Integer& index) const override { return collision(index).time; }
-  std::optional<Rational> turn() const override { return turn_of(system_); }
+  /// As impact(), with positions as seen from the wall.
+  virtual std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
+                                              const Integer& last) const;
+
+  // The same by the numbers of the bodies.
+  Integer first_index() const override { return first_index_; }
+  Integer last() const override { return last_; }
+  bool has(const Integer& index) const override { return index >= first_index_ && index <= last_; }
+  BodyCollision collision(const Integer& index) const override;
+  Time collision_time(const Integer& index) const override { return blocks_collision(index).time; }
+  BodiesState state_at(const Rational& time) const override;
+  Integer count_at(const Rational& time) const override { return blocks_at(time).count; }
+  Integer first_since(const Rational& time) const override;
+  std::vector<std::vector<PathPoint>> paths(const Rational& from, const Rational& to,
+                                            std::size_t most) const override;
+  bool is_exact(const Integer& /*index*/) const override { return false; }
+  std::optional<Integer> first_tie(const Integer& last) const override;
+  std::optional<double> certain_until(const Rational& /*time*/) const override { return {}; }
+  std::optional<Impact> impact(CollisionKind kind, const Integer& first,
+                               const Integer& last) const override;
+  const CollisionLog* pair() const noexcept override { return this; }
 
  protected:
-  explicit CollisionLog(BlockSystem system) : system_(std::move(system)) {}
+  explicit CollisionLog(const TwoBlocks& blocks) : Log(blocks.system), two_blocks_(blocks) {}
+  void set_range(Integer first_index, Integer last) {
+    first_index_ = std::move(first_index);
+    last_ = std::move(last);
+  }
 
  private:
-  BlockSystem system_;
+  BodyMotion body_motion_of(const Motion& motion) const {
+    return {{two_blocks_.side * motion.position, 0}, {two_blocks_.side * motion.velocity, 0}};
+  }
+
+  TwoBlocks two_blocks_;
+  Integer first_index_ = 1;
+  Integer last_ = 0;
 };
+
+/// As turn_of(log.pair()->blocks()); nothing of other bodies.
+std::optional<Rational> turn_of(const Log& log);
 
 enum class Engine {
   unfolded,  ///< closed form; any number of collisions at the price of one
@@ -109,6 +171,8 @@ inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 ///         the closed form and collisions are not elastic, or the closed form is asked for a mass
 ///         ratio beyond 2^2000 of elastic blocks.
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
+std::unique_ptr<CollisionLog> make_collision_log(const TwoBlocks& blocks,
+                                                 Engine engine = Engine::unfolded);
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
                                                  Engine engine = Engine::unfolded);
 
@@ -129,31 +193,5 @@ struct Corner {
 /// The corner of a system that has collisions, finitely many, and has them all at once.
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Corner> corner_of(const BlockSystem& system);
-
-/// Bounds for the error of the positions of a state, in units of length.
-struct PositionBounds {
-  double blue = 0;
-  double red = 0;
-};
-
-/// Of state_at(time); nothing for an engine that steps, whose errors add up.
-std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time);
-
-/// The blocks as seen from the wall, without widths: they touch where y1 = y2. Near the turn
-/// of many digits both are far smaller than the rounding error of a position. 0 <= y1 <= y2.
-struct Gaps {
-  double y1 = 0;  ///< between the wall and blue
-  double y2 = 0;  ///< between the wall and red, less blue's width
-};
-
-/// Of state_at(time), each with a relative error of at most 16 * 2^-53 unless it is below 1e-290.
-/// For an engine that steps they are differences of positions, with the error of these.
-/// @throws SimulationError as CollisionLog::state_at().
-Gaps gaps_at(const CollisionLog& log, const Rational& time);
-
-/// The gaps at this collision: y1 is exactly 0 at the wall, and equals y2 exactly if the blocks
-/// meet. @param index  of the log
-/// @throws SimulationError as CollisionLog::collision().
-Gaps gaps_at_collision(const CollisionLog& log, const Integer& index);
 
 }  // namespace piblocks

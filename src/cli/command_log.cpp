@@ -148,18 +148,19 @@ void log_bodies(const Scene& scene, const Command& options) {
   if (options.is_given("--engine")) require_blocks(scene, "--engine");
   const BodyLogFormat format = parse_body_log_format(format_name(options));
   if (format.is_binary) refuse_terminal(options);
-  const RunLog run(scene_for_log(scene, options));
-  const BodyLog& log = *run.bodies();
-  const Rows rows = select_rows(options, log);
+  const Scene logged = scene_for_log(scene, options);
+  const std::unique_ptr<Log> log = log_of(logged);
+  const Rows rows = select_rows(options, *log);
+  require_certain_until(logged, *log, rows.last);
   const StopOnSignals signals;
   OutputFile file(output_of(options), format.is_binary ? Contents::bytes : Contents::text);
-  file.write(format.header(log.system(), rows));
+  file.write(format.header(log->system(), rows));
   RowProgress progress(output_of(options), rows);
   std::int64_t pending = 0;
   fmt::memory_buffer text;
   constexpr std::size_t kPiece_bytes = 1 << 16;
   for (Integer index = rows.first; index <= rows.last; ++index) {
-    format.append(log.system(), log.collision(index), text);
+    format.append(log->system(), log->collision(index), text);
     ++pending;
     if (text.size() < kPiece_bytes && index != rows.last) continue;
     progress.add(std::exchange(pending, 0));
@@ -168,7 +169,7 @@ void log_bodies(const Scene& scene, const Command& options) {
     text.clear();
   }
   file.finish();
-  note_ties(run, rows.last);
+  note_ties(*log, rows.last);
 }
 
 void run_log(const Command& options, const SceneOptions& scene_options) {

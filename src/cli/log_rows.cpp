@@ -14,8 +14,6 @@
 #include <utility>
 
 #include "cli/values.hpp"
-#include "physics/exact_motion.hpp"
-#include "physics/inelastic_log.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -47,7 +45,7 @@ struct Bound {
 };
 
 /// Nothing if the option was not given.
-std::optional<Bound> bound_of(const OptionTexts& options, const char* option, const Timeline& log) {
+std::optional<Bound> bound_of(const OptionTexts& options, const char* option, const Log& log) {
   return options.value(option, [&](const std::string& text) {
     Instant instant = parse_instant(text);
     Rational time = time_of(instant, log);
@@ -56,61 +54,55 @@ std::optional<Bound> bound_of(const OptionTexts& options, const char* option, co
 }
 
 /// The first collision at this instant or after it.
-Integer first_since(const CollisionLog& log, const Bound& bound) {
+Integer first_since(const Log& log, const Bound& bound) {
   const auto& [instant, time] = bound;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
-  if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
-  if (const InelasticLog* const inelastic = inelastic_log(log)) return inelastic->first_since(time);
-  const Integer last = log.count_at(time);
-  if (last < log.first_index()) return log.first_index();
-  // Collisions happen together only in the corner, and there all of them do.
-  const ExactMotion motion(log.system());
-  if (motion.through_corner() && motion.closest_approach == time) return log.first_index();
-  return log.collision(last).time == to_time(time) ? last : Integer(last + 1);
+  if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.last();
+  return log.first_since(time);
 }
 
-Integer first_since(const BodyLog& log, const Bound& bound) {
-  const auto& [instant, time] = bound;
-  if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
-  Integer last = log.count_at(time);
-  while (last > log.size() || (last > 0 && log.collision(last).time == to_time(time))) --last;
-  return last + 1;
+std::string rows_there_are(const Log& log) {
+  if (!log.has(log.first_index())) return "no collisions";
+  return fmt::format(
+      "{} {} to {}",
+      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
+      readable(log.first_index()), readable(log.last()));
 }
 
-template <typename Log>
-Rows rows_within_times(const OptionTexts& options, const Log& log) {
+Integer first_row(const OptionTexts& options, const Log& log, const std::optional<Bound>& from) {
+  const Integer since = from ? first_since(log, *from) : Integer(1);
+  const auto first = options.value("--first", parse_index);
+  if (!first) return since;
+  if (!log.has(*first)) {
+    throw UsageError(
+        fmt::format("--first {}: the scene has {}", readable(*first), rows_there_are(log)));
+  }
+  return from ? std::max(since, *first) : *first;
+}
+
+/// The index of the last row. Asks for no collision beyond it.
+Integer last_row(const OptionTexts& options, const Log& log, const std::optional<Bound>& to,
+                 const Integer& first) {
+  const auto parse_limit = [](const std::string& text) { return parse_whole_number(text, 1); };
+  const auto limit = options.value("--limit", parse_limit);
+  if (!limit) return to ? log.count_at(to->time) : log.last();
+  const Integer last = first + *limit - 1;
+  if (to) return std::min(last, log.count_at(to->time));
+  return log.has(last) ? last : log.last();
+}
+
+}  // namespace
+
+Rows select_rows(const OptionTexts& options, const Log& log) {
   const auto from = bound_of(options, "--from", log);
   const auto to = bound_of(options, "--to", log);
   if (from && to && to->time < from->time) {
     throw UsageError(fmt::format("--to {}: is before --from {}", exact_text(to->instant),
                                  exact_text(from->instant)));
   }
-  Rows rows{1, log.size()};
-  if (from) rows.first = first_since(log, *from);
-  if (to) rows.last = std::min(log.count_at(to->time), log.size());
-  return rows;
-}
-
-std::string rows_there_are(const Timeline& log) {
-  if (log.size() < log.first_index()) return "no collisions";
-  return fmt::format(
-      "{} {} to {}",
-      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
-      readable(log.first_index()), readable(log.size()));
-}
-
-Rows limited(const OptionTexts& options, const Timeline& log, Rows rows) {
-  if (const auto first = options.value("--first", parse_index)) {
-    if (*first > log.size() || *first < log.first_index()) {
-      throw UsageError(
-          fmt::format("--first {}: the scene has {}", readable(*first), rows_there_are(log)));
-    }
-    rows.first = options.is_given("--from") ? std::max(rows.first, *first) : *first;
-  }
-  const auto parse_limit = [](const std::string& text) { return parse_whole_number(text, 1); };
-  if (const auto limit = options.value("--limit", parse_limit)) {
-    rows.last = std::min<Integer>(rows.last, rows.first + *limit - 1);
-  }
+  Rows rows;
+  rows.first = first_row(options, log, from);
+  rows.last = last_row(options, log, to, rows.first);
   if (rows.count() > kMaxRows && !options.is_given("--limit")) {
     throw UsageError(fmt::format(
         "log: {} rows are more than {}; narrow them with --from, --to or --first, or allow them "
@@ -118,16 +110,6 @@ Rows limited(const OptionTexts& options, const Timeline& log, Rows rows) {
         readable(rows.count()), readable(kMaxRows)));
   }
   return rows;
-}
-
-}  // namespace
-
-Rows select_rows(const OptionTexts& options, const CollisionLog& log) {
-  return limited(options, log, rows_within_times(options, log));
-}
-
-Rows select_rows(const OptionTexts& options, const BodyLog& log) {
-  return limited(options, log, rows_within_times(options, log));
 }
 
 std::string npy_header(std::string_view row_type, const Rows& rows) {

@@ -27,8 +27,7 @@ struct Rows {
 
 /// What --from, --to, --first and --limit select.
 /// @throws UsageError if they make no sense, or select more than kMaxRows without --limit.
-Rows select_rows(const OptionTexts& options, const CollisionLog& log);
-Rows select_rows(const OptionTexts& options, const BodyLog& log);
+Rows select_rows(const OptionTexts& options, const Log& log);
 
 /// What a file of NumPy begins with
 /// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0).

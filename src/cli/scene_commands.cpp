@@ -27,10 +27,8 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
   for (const char* const option : {"--engine", "--bounds"}) {
     if (options.is_given(option)) require_blocks(scene, option);
   }
-  Scene whole = scene;
-  whole.time.allow_uncertain = true;  // each instant is checked below
-  const RunLog run(whole);
-  const BodyLog& log = *run.bodies();
+  const std::unique_ptr<Log> run = log_of(scene);
+  const Log& log = *run;
   TextOutput out("-");
   Integer last = 0;
   for (const Instant& instant : instants) {
@@ -41,26 +39,29 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
     out.line(state_text(log.system(), time, state));
   }
   out.finish();
-  note_ties(run, last);
+  note_ties(log, last);
 }
 
-/// All collisions, or those until --to; for two blocks and a wall all are counted without a log.
+/// All collisions, or those until --to; of two blocks and a wall all are counted without a log.
 void run_count(const Command& options, const SceneOptions& scene_options) {
   TextOutput out("-");
   const Scene scene = scene_options.scene();
   const std::optional<Instant> to = options.value("--to", parse_instant);
-  std::optional<RunLog> run;
-  if (to || scene.bodies) run.emplace(scene_for_log(scene, options));
-  Integer last;
-  if (run) {
-    const Timeline& log = run->timeline();
-    last = to ? log.count_at(time_of(*to, log)) : log.size();
+  std::unique_ptr<Log> log;
+  Integer count;
+  if (to || scene.bodies) {
+    log = log_of(scene);
+    count = to ? log->count_at(time_of(*to, *log)) : log->last();
+    require_certain_until(scene, *log, count);
   }
-  const bool is_counted = run && last != infinite_count(run->timeline());
-  const Integer count = is_counted ? last : count_collisions(scene.system);
+  if (!log || count == infinite_count(*log)) count = count_collisions(scene.system);
   out.line(count.get_str(scene.show.base));
   out.finish();
-  if (run) note_ties(*run, last);
+  if (log) note_ties(*log, count);
+  if (log && log->never_ends() && !to) {
+    say("piblocks: note: collisions may go on for ever; these are the ones until time.to = {}\n",
+        exact_text(scene.time.to));
+  }
   note_convention(scene);
 }
 
@@ -75,7 +76,7 @@ void run_state(const Command& options, const SceneOptions& scene_options) {
     const Rational time = time_of(instant, *log);
     std::optional<PositionBounds> bounds;
     if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
-    out.line(state_text(time, log->state_at(time), infinite, bounds));
+    out.line(state_text(time, log->blocks_at(time), infinite, bounds));
   }
   out.finish();
   note_convention(scene);

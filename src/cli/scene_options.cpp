@@ -209,7 +209,7 @@ void note_sharp(const Script& script) {
       "instant\n");
 }
 
-void note_ties(const RunLog& run, const Integer& last) {
+void note_ties(const Log& run, const Integer& last) {
   if (const auto note = tie_note(run, last)) say("piblocks: note: {}\n", *note);
 }
 

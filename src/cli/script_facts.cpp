@@ -24,13 +24,13 @@ Scene scene_for_log(Scene scene, const OptionTexts& options) {
 }
 
 PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
-  if (const auto bounds = position_bounds(log, time)) return *bounds;
+  if (const auto bounds = log.bounds_at(time)) return *bounds;
   throw UsageError(
       "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
 }
 
-std::optional<Integer> infinite_count(const Timeline& log) {
-  return is_endless(log) ? std::optional(log.size()) : std::nullopt;
+std::optional<Integer> infinite_count(const Log& log) {
+  return is_endless(log) ? std::optional(log.last()) : std::nullopt;
 }
 
 std::optional<std::string> endless_note(const Scene& scene) {

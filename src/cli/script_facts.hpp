@@ -30,7 +30,7 @@ Scene scene_for_log(Scene scene, const OptionTexts& options);
 PositionBounds bounds_at(const CollisionLog& log, const Rational& time);
 
 /// The index in this log that stands for infinitely many collisions, if one does.
-std::optional<Integer> infinite_count(const Timeline& log);
+std::optional<Integer> infinite_count(const Log& log);
 
 /// How far the log of a run of infinitely many collisions goes; nothing for other scenes.
 /// @throws SceneError if problems_of() of the system is not empty.

@@ -82,7 +82,7 @@ class Composition {
   Composition(const Scene& scene, const CollisionLog& log,
               std::shared_ptr<const Image> logo = nullptr);
   /// The same of a scene with bodies.
-  Composition(const Scene& scene, const BodyLog& log, std::shared_ptr<const Image> logo = nullptr);
+  Composition(const Scene& scene, const Log& log, std::shared_ptr<const Image> logo = nullptr);
 
   DrawList frame(const FrameState& shown) const;
   /// What frame() reads of a FrameState beside what is always there.

@@ -75,16 +75,16 @@ struct Layout {
 /// What overlays and panels are drawn from. It does not outlive their making.
 struct DrawingContext {
   const Scene& scene;
-  const Timeline& timeline;
+  const Log& timeline;
   const CollisionLog* blocks = nullptr;  ///< the same, of two blocks and a wall; else nullptr
-  const BodyLog* bodies = nullptr;       ///< the same, of bodies; else nullptr
+  const Log* bodies = nullptr;           ///< the same, of bodies; else nullptr
   const Palette& palette;
   const Fonts& fonts;
   const Font& font;  ///< of plain text
   const Layout& layout;
   const Sizes& sizes;
   FrameNeeds& needs;                         ///< a drawable says here what it reads of a FrameState
-  std::optional<double> certain_until = {};  ///< as BodyLog has it
+  std::optional<double> certain_until = {};  ///< as Log has it
 
   /// Of two blocks and a wall, for what is drawn for them alone.
   const CollisionLog& log() const { return *blocks; }

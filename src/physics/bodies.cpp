@@ -237,7 +237,10 @@ bool may_never_end(const BodySystem& system) {
       return side > 0 || (side == 0 && dot(wall.normal, other.normal) > 0);
     });
   };
-  return !system.walls.empty() && std::ranges::none_of(system.walls, is_rightmost);
+  const bool is_enclosed =
+      !system.walls.empty() && std::ranges::none_of(system.walls, is_rightmost);
+  const auto fixed = std::ranges::count_if(system.bodies, [](const Body& b) { return !b.mass; });
+  return is_enclosed || fixed + (system.walls.empty() ? 0 : 1) >= 2;
 }
 
 }  // namespace piblocks

@@ -31,12 +31,11 @@ std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
 
 }  // namespace
 
-BodyExposure expose(const BodyLog& log, const Rational& begin, const Rational& end) {
+BodyExposure expose(const Log& log, const Rational& begin, const Rational& end) {
   if (end < begin) return expose(log, end, begin);
-  if (const std::optional<ClosedBlocks> blocks = closed_blocks(log)) {
-    return {
-        {},
-        ClosedExposure{expose(blocks->log, begin, end), blocks->blue, blocks->red, blocks->sign}};
+  if (const CollisionLog* const pair = log.pair()) {
+    const TwoBlocks& blocks = pair->two_blocks();
+    return {{}, ClosedExposure{pair->expose(begin, end), blocks.blue, blocks.red, blocks.side}};
   }
   // What is stepped can be listed: a log has no more than kMaxBodyCollisions.
   constexpr auto kAll = static_cast<std::size_t>(kMaxBodyCollisions);

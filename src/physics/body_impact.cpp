@@ -1,4 +1,4 @@
-#include <piblocks/bodies.hpp>
+#include <piblocks/log.hpp>
 
 #include <cmath>
 
@@ -61,56 +61,25 @@ bool is_at_wall(const BodySystem& system, const BodyCollision& collision) {
   return is_fixed(collision.first) || is_fixed(collision.second);
 }
 
-/// The impulse that the unit of Impact is for two blocks.
-double unit_of(const BlockSystem& system) {
-  const auto& [mass, position, velocity, width] = system.blue;
-  const Block& red = system.red;
-  const Rational twice_energy = mass * velocity * velocity + red.mass * red.velocity * red.velocity;
-  const Rational share = mass / (mass + red.mass);
-  return 2 * std::sqrt(to_double(share * share * red.mass * twice_energy));
-}
+}  // namespace
 
-std::optional<Impact> impact_of_bodies(const BodyLog& log, CollisionKind kind, const Integer& first,
-                                       const Integer& last) {
+std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
+                                  const Integer& last) const {
   std::optional<Impact> sum;
-  if (const auto closed = first < last ? closed_blocks(log) : std::nullopt) {
-    sum = impact(closed->log, kind, first, last);
-    if (!sum) return sum;
-    sum->impulse *= unit_of(closed->log.system());
-    sum->position *= closed->sign;
-    return sum;
-  }
-  const BodySystem& system = log.system();
   for (Integer index = first; index <= last; ++index) {
-    const BodyCollision collision = log.collision(index);
-    if ((kind == CollisionKind::wall) != is_at_wall(system, collision)) continue;
-    const bool is_first_fixed = !system.bodies[collision.first].mass;
-    const BodyMotion& seen = is_first_fixed ? collision.second_after : collision.first_after;
-    if (!sum) sum = Impact{kind, collision.time, 0, seen.position[0]};
-    sum->impulse += impulse_of(system, collision);
+    const BodyCollision found = collision(index);
+    if ((kind == CollisionKind::wall) != is_at_wall(system(), found)) continue;
+    const bool is_first_fixed = !system().bodies[found.first].mass;
+    const BodyMotion& seen = is_first_fixed ? found.second_after : found.first_after;
+    if (!sum) sum = Impact{kind, found.time, 0, seen.position[0]};
+    sum->impulse += impulse_of(system(), found);
   }
   return sum;
 }
 
-}  // namespace
-
-std::optional<Impact> impact(const Timeline& log, CollisionKind kind, const Integer& first,
-                             const Integer& last) {
-  if (const auto* const bodies = dynamic_cast<const BodyLog*>(&log)) {
-    return impact_of_bodies(*bodies, kind, first, last);
-  }
-  return impact(dynamic_cast<const CollisionLog&>(log), kind, first, last);
-}
-
-double impulse_unit(const Timeline& log) {
-  const auto* const bodies = dynamic_cast<const BodyLog*>(&log);
-  const double usual = bodies == nullptr ? 0 : usual_impulse(bodies->system());
+double impulse_unit(const Log& log) {
+  const double usual = log.pair() ? 0 : usual_impulse(log.system());
   return usual > 0 ? usual : 1;
-}
-
-Integer count_near(const Timeline& log, const Time& time) {
-  const auto* const blocks = dynamic_cast<const CollisionLog*>(&log);
-  return blocks != nullptr ? count_near(*blocks, time) : log.count_at(to_rational(time));
 }
 
 }  // namespace piblocks

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <piblocks/bodies.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
 
 #include <cmath>
 
@@ -9,12 +9,21 @@
 
 namespace piblocks {
 
+BodyMotion motion_at_start(const BodySystem& system, std::size_t id) {
+  const auto rounded = [](const ExactVector& vector) {
+    return std::array<double, 2>{to_double(vector[0]), to_double(vector[1])};
+  };
+  if (id >= system.bodies.size()) {
+    return {rounded(system.walls[id - system.bodies.size()].point), {}};
+  }
+  return {rounded(system.bodies[id].position), rounded(system.bodies[id].velocity)};
+}
+
 std::vector<BodyMotion> motions_at_start(const BodySystem& system) {
   std::vector<BodyMotion> motions;
   motions.reserve(system.bodies.size());
-  for (const Body& body : system.bodies) {
-    motions.push_back({{to_double(body.position[0]), to_double(body.position[1])},
-                       {to_double(body.velocity[0]), to_double(body.velocity[1])}});
+  for (std::size_t body = 0; body < system.bodies.size(); ++body) {
+    motions.push_back(motion_at_start(system, body));
   }
   return motions;
 }
@@ -36,15 +45,18 @@ std::vector<double> sample_times(std::size_t count) {
   return times;
 }
 
-std::unique_ptr<BodyLog> make_body_log(const BodySystem& system,
-                                       const std::optional<Rational>& until) {
-  if (until) require_not_negative(*until);
-  if (auto log = make_closed_body_log(system)) return log;
-  if (!until && may_never_end(system)) {
-    throw UsageError(
-        "time.to: bodies between walls may collide for ever; say until when, as time.to = 10");
+Integer Log::first_since(const Rational& time) const {
+  Integer last = count_at(time);
+  while (last >= first_index() && collision_time(last) == to_time(time)) --last;
+  return last + 1;
+}
+
+std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon) {
+  if (const std::optional<TwoBlocks> blocks = two_blocks_of(system)) {
+    return make_collision_log(*blocks);
   }
-  return make_stored_body_log(system, until);
+  if (horizon) require_not_negative(*horizon);
+  return make_stored_body_log(system, horizon);
 }
 
 }  // namespace piblocks

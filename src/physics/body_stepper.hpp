@@ -3,7 +3,7 @@
 // are certain to be the true ones.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/log.hpp>
 
 #include <limits>
 #include <optional>
@@ -37,8 +37,8 @@ class BodyStepper {
   BodyStepper& operator=(const BodyStepper&) = delete;
   virtual ~BodyStepper() = default;
 
-  /// The next collision; none if there will be no more. Times never decrease. Of several at the
-  /// same time the pair that comes first in the order (0,1), (0,2), …, (1,2), … is first.
+  /// The next collision; none if there will be no more. Times never decrease. Several at the same
+  /// time are in the order of TieRank (contact.hpp).
   /// @throws SimulationError if a number leaves the range of a double.
   virtual std::optional<BodyStep> step() = 0;
   /// What is known so far: that all steps before this time are certain. It falls once, from for

@@ -25,12 +25,6 @@ double root_of(const std::optional<Rational>& mass) {
   return mass ? std::sqrt(to_double(*mass)) : 0;
 }
 
-double share_of_change(const LineElement& own, const LineElement& other) {
-  if (!own.mass) return 0;
-  if (!other.mass) return 2;
-  return to_double(2 * *other.mass / (*own.mass + *other.mass));
-}
-
 double inverse_mass(const LineElement& element) {
   return element.mass ? to_double(1 / *element.mass) : 0;
 }
@@ -48,6 +42,7 @@ CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Ration
     element.position = to_double(exact.position_at(begin));
     element.velocity = to_double(exact.velocity);
     element.root_mass = root_of(exact.mass);
+    element.is_movable = exact.mass.has_value();
     position_error_ += element.root_mass * kUnitRoundoff * std::fabs(element.position);
     velocity_error_ += element.root_mass * kUnitRoundoff * std::fabs(element.velocity);
   }
@@ -55,8 +50,8 @@ CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Ration
     const LineElement& left = elements[i];
     const LineElement& right = elements[i + 1];
     Pair& pair = pairs_[i];
-    pair.left_share = share_of_change(left, right);
-    pair.right_share = share_of_change(right, left);
+    pair.left_share = to_double(share_of_change(left.mass, right.mass));
+    pair.right_share = to_double(share_of_change(right.mass, left.mass));
     pair.gap_per_norm = kSpare * std::sqrt(inverse_mass(left) + inverse_mass(right));
     // Exact numbers tell that they have just met, or are at rest beside each other.
     pair.has_met =
@@ -73,10 +68,12 @@ bool CertifiedLine::Earlier::operator()(std::size_t a, std::size_t b) const {
   const Pair& first = line.pairs_[a];
   const Pair& second = line.pairs_[b];
   if (first.due != second.due) return first.due < second.due;
-  const auto ids = [this](std::size_t pair) {
-    return std::minmax(line.elements_[pair].id, line.elements_[pair + 1].id);
+  const auto rank_of = [this](std::size_t pair) {
+    const Element& left = line.elements_[pair];
+    const Element& right = line.elements_[pair + 1];
+    return TieRank::of(left.id, left.is_movable, right.id, right.is_movable);
   };
-  return first.due < kNever && ids(a) < ids(b);
+  return first.due < kNever && rank_of(a) < rank_of(b);
 }
 
 CertifiedLine::Approach CertifiedLine::approach(std::size_t pair) const {
@@ -108,8 +105,9 @@ void CertifiedLine::predict(std::size_t pair) {
   const Approach now = approach(pair);
   p.is_doubt = false;
   p.due = kNever;
-  if (!p.has_met && now.closing > 0) {
-    p.due = now.clock + std::max(0.0, now.gap) / now.closing;
+  const std::optional<double> wait = time_to_contact(now.gap, now.closing);
+  if (!p.has_met && wait) {
+    p.due = now.clock + *wait;
   } else if (is_certain()) {
     p.due = earliest(pair, now);
     p.is_doubt = p.due < kNever;
@@ -174,8 +172,8 @@ void CertifiedLine::collide(std::size_t pair) {
   const double closing = left.velocity - right.velocity;
   velocity_error_ += (left.root_mass + right.root_mass) * kVelocityRoundings *
                      (std::fabs(left.velocity) + std::fabs(right.velocity)) * kSpare;
-  left.velocity -= pairs_[pair].left_share * closing;
-  right.velocity += pairs_[pair].right_share * closing;
+  left.velocity -= velocity_change(closing, pairs_[pair].left_share);
+  right.velocity += velocity_change(closing, pairs_[pair].right_share);
   if (!std::isfinite(left.velocity) || !std::isfinite(right.velocity) ||
       !std::isfinite(left.position) || !std::isfinite(right.position)) {
     throw SimulationError("bodies: a position or velocity is out of the range of a double");

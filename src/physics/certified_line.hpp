@@ -38,11 +38,12 @@ class CertifiedLine {
     double velocity = 0;
     double since = 0;      ///< clock of position
     double root_mass = 0;  ///< square root of the mass; 0 if no collision moves it
+    bool is_movable = true;
   };
   /// Two neighbours.
   struct Pair {
-    double left_share = 0;   ///< of the closing speed, by how much the left one's velocity falls
-    double right_share = 0;  ///< and the right one's rises
+    double left_share = 0;  ///< share_of_change() of the left one
+    double right_share = 0;
     /// sqrt(1/m_left + 1/m_right): an error of norm E changes their gap by E times this at most.
     double gap_per_norm = 0;
     bool has_met = false;   ///< and neither has met another since

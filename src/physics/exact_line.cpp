@@ -1,5 +1,7 @@
 #include "physics/exact_line.hpp"
 
+#include <piblocks/contact.hpp>
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -17,20 +19,8 @@ BodyMotion motion_of(const LineElement& element) {
 
 void collide(LineElement& left, LineElement& right) {
   const Rational closing = left.velocity - right.velocity;
-  if (!left.mass) {
-    right.velocity += 2 * closing;
-  } else if (!right.mass) {
-    left.velocity -= 2 * closing;
-  } else {
-    const Rational change = 2 * closing / (*left.mass + *right.mass);
-    left.velocity -= *right.mass * change;
-    right.velocity += *left.mass * change;
-  }
-}
-
-/// The ids of two neighbours, the lower one first: the order of pairs that meet at one instant.
-std::pair<std::uint32_t, std::uint32_t> ids_of(const LineElement& a, const LineElement& b) {
-  return std::minmax(a.id, b.id);
+  left.velocity -= velocity_change(closing, share_of_change(left.mass, right.mass));
+  right.velocity += velocity_change(closing, share_of_change(right.mass, left.mass));
 }
 
 /// The wall on one side of all blocks that is next to them; nothing if there is none.
@@ -49,6 +39,10 @@ std::optional<LineElement> nearest_wall(const BodySystem& system, int sign) {
 }
 
 }  // namespace
+
+TieRank rank_of(const LineElement& a, const LineElement& b) {
+  return TieRank::of(a.id, a.mass.has_value(), b.id, b.mass.has_value());
+}
 
 std::vector<LineElement> elements_of(const BodySystem& system) {
   std::vector<LineElement> elements;
@@ -87,18 +81,18 @@ bool ExactLine::Earlier::operator()(std::size_t a, std::size_t b) const {
   if (!meetings[b]) return true;
   const int order = cmp(*meetings[a], *meetings[b]);
   if (order != 0) return order < 0;
-  return ids_of(elements[a], elements[a + 1]) < ids_of(elements[b], elements[b + 1]);
+  return rank_of(elements[a], elements[a + 1]) < rank_of(elements[b], elements[b + 1]);
 }
 
 void ExactLine::predict(std::size_t pair) {
   const LineElement& left = elements_[pair];
   const LineElement& right = elements_[pair + 1];
-  const Rational closing = left.velocity - right.velocity;
-  meetings_[pair].reset();
-  if (closing <= 0) return;
   const Rational gap =
       (right.position_at(time_) - right.half_width) - (left.position_at(time_) + left.half_width);
-  meetings_[pair] = time_ + gap / closing;
+  const std::optional<Rational> wait =
+      time_to_contact(gap, Rational(left.velocity - right.velocity));
+  meetings_[pair].reset();
+  if (wait) meetings_[pair] = time_ + *wait;
 }
 
 std::optional<BodyStep> ExactLine::step() {

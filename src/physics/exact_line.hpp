@@ -4,6 +4,7 @@
 #pragma once
 
 #include <piblocks/bodies.hpp>
+#include <piblocks/contact.hpp>
 
 #include <optional>
 #include <vector>
@@ -24,6 +25,9 @@ struct LineElement {
 
   Rational position_at(const Rational& time) const { return position + velocity * (time - since); }
 };
+
+/// Of two neighbours, at most one of which is immovable.
+TieRank rank_of(const LineElement& a, const LineElement& b);
 
 /// The blocks, and the walls next to them, from left to right.
 std::vector<LineElement> elements_of(const BodySystem& system);

@@ -1,10 +1,10 @@
+#include <piblocks/contact.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include "physics/blocks.hpp"
-#include "physics/precise_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -19,31 +19,24 @@ struct ExactCollision {
   BlockSystem blocks;
 };
 
-/// Time until a gap that changes at `rate` is closed, if ever.
-std::optional<Rational> closing_time(const Rational& gap, const Rational& rate) {
-  if (rate >= 0) return std::nullopt;
-  return Rational(-gap / rate);
-}
-
 void advance(BlockSystem& system, const Rational& duration) {
   system.blue.position += system.blue.velocity * duration;
   system.red.position += system.red.velocity * duration;
 }
 
-/// The relative velocity is reversed, the centre of mass keeps its own.
 void collide_blocks(BlockSystem& system) {
   Block& blue = system.blue;
   Block& red = system.red;
-  const Rational centre =
-      (blue.mass * blue.velocity + red.mass * red.velocity) / (blue.mass + red.mass);
-  blue.velocity = 2 * centre - blue.velocity;
-  red.velocity = 2 * centre - red.velocity;
+  const Rational closing = blue.velocity - red.velocity;
+  blue.velocity -= velocity_change(closing, share_of_change(blue.mass, red.mass));
+  red.velocity += velocity_change(closing, share_of_change(red.mass, blue.mass));
 }
 
 /// Performs the next collision.
 std::optional<ExactCollision> next_after(const Rational& time, BlockSystem now) {
-  const auto to_wall = closing_time(now.blue_gap(), now.blue.velocity);
-  const auto to_blocks = closing_time(now.blocks_gap(), now.red.velocity - now.blue.velocity);
+  const auto to_wall = time_to_contact(now.blue_gap(), Rational(-now.blue.velocity));
+  const auto to_blocks =
+      time_to_contact(now.blocks_gap(), Rational(now.blue.velocity - now.red.velocity));
   if (!to_wall && !to_blocks) return std::nullopt;
   const bool blocks = to_blocks && (!to_wall || *to_blocks <= *to_wall);
   const Rational& wait = blocks ? *to_blocks : *to_wall;
@@ -82,13 +75,13 @@ Gaps gaps_of(const BlockSystem& blocks) {
   return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
 }
 
-class ExactLog final : public PreciseLog {
+class ExactLog final : public CollisionLog {
  public:
-  explicit ExactLog(const BlockSystem& system)
-      : PreciseLog(system), start_{0, CollisionKind::wall, system} {
+  explicit ExactLog(const TwoBlocks& two_blocks)
+      : CollisionLog(two_blocks), start_{0, CollisionKind::wall, blocks()} {
     // Before time 0 the velocities just after a collision are the opposite of those just before it
     // in the reversed run.
-    for (ExactCollision& event : run(reversed(system))) {
+    for (ExactCollision& event : run(reversed(blocks()))) {
       ExactCollision collision{-event.time, event.kind, event.blocks};
       collision.blocks.blue.velocity = start_.blocks.blue.velocity;
       collision.blocks.red.velocity = start_.blocks.red.velocity;
@@ -96,31 +89,33 @@ class ExactLog final : public PreciseLog {
       events_.insert(events_.begin(), std::move(collision));
     }
     const Integer past = events_.size();
-    for (ExactCollision& event : run(system)) events_.push_back(std::move(event));
+    for (ExactCollision& event : run(blocks())) events_.push_back(std::move(event));
     set_range(1 - past, events_.size() - past);
   }
 
-  Collision collision(const Integer& index) const override {
+  Collision blocks_collision(const Integer& index) const override {
     return rounded_collision(index, event(index));
   }
 
-  BlockState state_at(const Rational& time) const override {
+  BlockState blocks_at(const Rational& time) const override {
     const Integer count = first_index() - 1 + Integer(happened(time) - events_.begin());
-    const Collision at = rounded_collision(count, {time, CollisionKind::wall, blocks_at(time)});
+    const Collision at = rounded_collision(count, {time, CollisionKind::wall, system_at(time)});
     return {at.index, at.blue, at.red};
   }
 
   Rational time_after(const Integer& index) const override {
-    require_last(index, state_at(event(index).time).count);
+    require_last(index, blocks_at(event(index).time).count);
     return event(index).time;
   }
 
-  PositionBounds bounds_at(const Rational& time) const override {
+  std::optional<PositionBounds> bounds_at(const Rational& time) const override {
     constexpr double kRounding = 0x1p-53;
-    const BlockState now = state_at(time);
-    return {kRounding * std::fabs(now.blue.position), kRounding * std::fabs(now.red.position)};
+    const BlockState now = blocks_at(time);
+    return PositionBounds{kRounding * std::fabs(now.blue.position),
+                          kRounding * std::fabs(now.red.position)};
   }
-  Gaps gaps_at(const Rational& time) const override { return gaps_of(blocks_at(time)); }
+  bool is_exact(const Integer& /*index*/) const override { return true; }
+  Gaps gaps_at(const Rational& time) const override { return gaps_of(system_at(time)); }
   Gaps gaps_at_collision(const Integer& index) const override {
     return gaps_of(event(index).blocks);
   }
@@ -128,7 +123,7 @@ class ExactLog final : public PreciseLog {
  private:
   using Events = std::vector<ExactCollision>;
 
-  BlockSystem blocks_at(const Rational& time) const {
+  BlockSystem system_at(const Rational& time) const {
     const auto next = happened(time);
     const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
     BlockSystem blocks = since.blocks;
@@ -149,10 +144,8 @@ class ExactLog final : public PreciseLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system) {
-  return std::make_unique<ExactLog>(system);
+std::unique_ptr<CollisionLog> make_exact_log(const TwoBlocks& blocks) {
+  return std::make_unique<ExactLog>(blocks);
 }
-
-bool is_exact(const CollisionLog& log) { return dynamic_cast<const ExactLog*>(&log) != nullptr; }
 
 }  // namespace piblocks

@@ -25,7 +25,7 @@ void add_flights(const CollisionLog& log, Time now, const Integer& count, const 
     now = time;
   };
   for (Integer index = count + 1; index <= stop.count; ++index) {
-    const Collision collision = log.collision(index);
+    const Collision collision = log.blocks_collision(index);
     go_to(collision.time, collision.blue, collision.red);
   }
   go_to(to_time(end), stop.blue, stop.red);
@@ -58,26 +58,14 @@ Exposure sliced(const CollisionLog& log, const Rational& begin, const Rational& 
   for (long slice = 0; slice < kSlices; ++slice) {
     const Rational from = begin + length * slice;
     const Rational to = from + length;
-    BlockState stop = log.state_at(to);
+    BlockState stop = log.blocks_at(to);
     if (stop.count - state.count <= kListedOfSlice) {
       add_flights(log, to_time(from), state.count, to, stop, pieces);
     } else {
-      add_bounces(log.system(), to_double(length), state, stop, pieces);
+      add_bounces(log.blocks(), to_double(length), state, stop, pieces);
     }
     state = std::move(stop);
   }
-  return pieces.exposure();
-}
-
-/// From collision to collision, or in slices of time if these are too many to be listed.
-Exposure listed(const CollisionLog& log, const Rational& begin, const Rational& end) {
-  const BlockState start = log.state_at(begin);
-  const BlockState stop = log.state_at(end);
-  if (inelastic_log(log) != nullptr && stop.count - start.count > long(kMaxListedCollisions)) {
-    return sliced(log, begin, end, start);
-  }
-  PieceList pieces(start.blue.position, start.red.position);
-  add_flights(log, to_time(begin), start.count, end, stop, pieces);
   return pieces.exposure();
 }
 
@@ -127,8 +115,8 @@ RayPhase UnfoldedLog::ray_phase(const Integer& ray) const {
 
 /// Before all collisions, which happen at once, and after them.
 Exposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
-  const BlockState start = state_at(begin);
-  const BlockState stop = state_at(end);
+  const BlockState start = blocks_at(begin);
+  const BlockState stop = blocks_at(end);
   PieceList pieces(start.blue.position, start.red.position);
   Rational now = begin;
   if (begin < exact_.closest_approach && exact_.closest_approach < end) {
@@ -182,10 +170,23 @@ Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const 
   return pieces.exposure();
 }
 
+Exposure CollisionLog::expose(const Rational& from, const Rational& to) const {
+  const BlockState start = blocks_at(from);
+  const BlockState stop = blocks_at(to);
+  PieceList pieces(start.blue.position, start.red.position);
+  add_flights(*this, to_time(from), start.count, to, stop, pieces);
+  return pieces.exposure();
+}
+
+Exposure InelasticLog::expose(const Rational& from, const Rational& to) const {
+  BlockState start = blocks_at(from);
+  const bool is_listed = count_at(to) - start.count <= long(kMaxListedCollisions);
+  return is_listed ? CollisionLog::expose(from, to) : sliced(*this, from, to, std::move(start));
+}
+
 Exposure expose(const CollisionLog& log, const Rational& begin, const Rational& end) {
   const auto& [first, last] = std::minmax(begin, end);
-  const UnfoldedLog* const form = closed_form(log);
-  return form != nullptr ? form->expose(first, last) : listed(log, first, last);
+  return log.expose(first, last);
 }
 
 }  // namespace piblocks

@@ -2,7 +2,7 @@
 // In: a collision log and two times. Out: an Exposure, exact over any number of collisions.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/log.hpp>
 #include <piblocks/run.hpp>
 
 #include <algorithm>
@@ -91,8 +91,8 @@ struct BodyExposure {
 
 /// The interval between two times, in either order, none of them negative. Every collision is
 /// listed, but for those that the closed form sums up. Valid after its log is gone.
-/// @throws as BodyLog::state_at().
-BodyExposure expose(const BodyLog& log, const Rational& begin, const Rational& end);
+/// @throws as Log::state_at().
+BodyExposure expose(const Log& log, const Rational& begin, const Rational& end);
 
 /// The interval between two times, in either order, and also before time 0. Valid after its log is
 /// gone.

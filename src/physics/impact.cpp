@@ -21,8 +21,8 @@ double impulse_of(const Rational& mass_ratio, const Collision& collision) {
 
 }  // namespace
 
-std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& first,
-                                          const Integer& last) const {
+std::optional<Impact> UnfoldedLog::blocks_impact(CollisionKind kind, const Integer& first,
+                                                 const Integer& last) const {
   const bool odd = kind == CollisionKind::blocks;
   Integer from = ray_of(first);
   Integer to = ray_of(last);
@@ -49,18 +49,22 @@ Integer UnfoldedLog::count_near(const Time& time) const {
   return exact_.count_from_ray(phase_of(point, exact).ray);
 }
 
-std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const Integer& first,
-                             const Integer& last) {
-  if (const UnfoldedLog* const form = closed_form(log)) return form->impact(kind, first, last);
-  if (const InelasticLog* const inelastic = inelastic_log(log))
-    return inelastic->impact(kind, first, last);
-  const Rational mass_ratio = log.system().blue.mass / log.system().red.mass;
+std::optional<Impact> CollisionLog::impact(CollisionKind kind, const Integer& first,
+                                           const Integer& last) const {
+  std::optional<Impact> sum = blocks_impact(kind, first, last);
+  if (sum) sum->position *= two_blocks().side;
+  return sum;
+}
+
+std::optional<Impact> CollisionLog::blocks_impact(CollisionKind kind, const Integer& first,
+                                                  const Integer& last) const {
+  const Rational mass_ratio = blocks().blue.mass / blocks().red.mass;
   std::optional<Impact> sum;
   // Means are taken relative to the first collision: a product would lose the second double.
   double delay = 0;
   double shift = 0;
   for (Integer index = first; index <= last; ++index) {
-    const Collision collision = log.collision(index);
+    const Collision collision = blocks_collision(index);
     if (collision.kind != kind) continue;
     const double impulse = impulse_of(mass_ratio, collision);
     if (!sum) {
@@ -78,13 +82,6 @@ std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const 
     sum->position += shift;
   }
   return sum;
-}
-
-Integer count_near(const CollisionLog& log, const Time& time) {
-  if (const UnfoldedLog* const form = closed_form(log)) return form->count_near(time);
-  if (const InelasticLog* const inelastic = inelastic_log(log))
-    return inelastic->count_at(to_rational(time));
-  return log.state_at(to_rational(time)).count;
 }
 
 }  // namespace piblocks

@@ -28,13 +28,13 @@ double position(const Real& gap, const Rational& offset) {
 
 }  // namespace
 
-InelasticLog::InelasticLog(const BlockSystem& system)
-    : PreciseLog(system),
-      motion_(system),
+InelasticLog::InelasticLog(const TwoBlocks& two_blocks)
+    : CollisionLog(two_blocks),
+      motion_(blocks()),
       // Beside the velocity of blue that of red is as small as their mass ratio.
       velocity_bits_(kPosition_bits + std::labs(Real(64, motion_.ratio).exponent())),
-      blue_offset_(system.wall_face + system.blue.width / 2),
-      red_offset_(system.wall_face + system.blue.width + system.red.width / 2) {
+      blue_offset_(blocks().wall_face + blocks().blue.width / 2),
+      red_offset_(blocks().wall_face + blocks().blue.width + blocks().red.width / 2) {
   set_range(1, motion_.listed);
 }
 
@@ -62,14 +62,14 @@ InelasticGaps InelasticLog::at_rest() const {
   return {zero, zero, zero, zero};
 }
 
-BlockState InelasticLog::state_at(const Rational& time) const {
+BlockState InelasticLog::blocks_at(const Rational& time) const {
   const auto [count, now] = moved(time);
   BlockState state{count, blue(now.y1, now.u1), red(now.y2, now.u2)};
   require_finite(to_time(time), state.blue, state.red, kName);
   return state;
 }
 
-Collision InelasticLog::collision(const Integer& index) const {
+Collision InelasticLog::blocks_collision(const Integer& index) const {
   const InelasticNumbers now = motion_.numbers(index, velocity_bits_ + 8);
   Collision collision{
       index, (now.reach / now.speed).to_double_double(), motion_.kind(index), {}, {}};
@@ -82,7 +82,7 @@ Collision InelasticLog::collision(const Integer& index) const {
 }
 
 Rational InelasticLog::time_after(const Integer& index) const {
-  if (motion_.coincides_from(index)) require_last(index, size());
+  if (motion_.coincides_from(index)) require_last(index, last());
   return motion_.time_past(index);
 }
 
@@ -98,8 +98,8 @@ Integer InelasticLog::first_since(const Rational& time) const {
   return is_then ? last : Integer(last + 1);
 }
 
-std::optional<Impact> InelasticLog::impact(CollisionKind kind, const Integer& first,
-                                           const Integer& last) const {
+std::optional<Impact> InelasticLog::blocks_impact(CollisionKind kind, const Integer& first,
+                                                  const Integer& last) const {
   Integer from = motion_.kind(first) == kind ? first : Integer(first + 1);
   const Integer to = motion_.kind(last) == kind ? last : Integer(last - 1);
   if (from > to) return std::nullopt;
@@ -113,17 +113,17 @@ std::optional<Impact> InelasticLog::impact(CollisionKind kind, const Integer& fi
       Real(kTime_bits, factor) * sums.speeds / sqrt(Real(kTime_bits, speed_squared));
   const Integer middle = from + (to - from) / 4 * 2;
   return Impact{kind, (sums.reaches / sums.speeds).to_double_double(), impulse.to_double(),
-                collision(middle).blue.position};
+                blocks_collision(middle).blue.position};
 }
 
-PositionBounds InelasticLog::bounds_at(const Rational& time) const {
+std::optional<PositionBounds> InelasticLog::bounds_at(const Rational& time) const {
   // Rounded once, from numbers of kPosition_bits and more.
   constexpr double kUnitRoundoff = 0x1p-53 * (1 + 0x1p-40);
   const auto bound = [](const Motion& block, const Rational& offset) {
     return kUnitRoundoff * std::fabs(block.position) + 0x1p-150 * std::fabs(to_double(offset));
   };
-  const BlockState now = state_at(time);
-  return {bound(now.blue, blue_offset_), bound(now.red, red_offset_)};
+  const BlockState now = blocks_at(time);
+  return PositionBounds{bound(now.blue, blue_offset_), bound(now.red, red_offset_)};
 }
 
 Gaps InelasticLog::gaps_at(const Rational& time) const {

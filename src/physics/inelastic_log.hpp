@@ -8,32 +8,33 @@
 
 #include "physics/impact.hpp"
 #include "physics/inelastic_motion.hpp"
-#include "physics/precise_log.hpp"
 
 namespace piblocks {
 
 /// Before time 0 the blocks move as they do at time 0: what they lost in earlier collisions is not
 /// known. In a run of infinitely many collisions they rest at the wall from the last listed one on.
-class InelasticLog final : public PreciseLog {
+class InelasticLog final : public CollisionLog {
  public:
   /// @throws SimulationError as RoundPowers.
-  explicit InelasticLog(const BlockSystem& system);
+  explicit InelasticLog(const TwoBlocks& two_blocks);
 
-  Collision collision(const Integer& index) const override;
-  BlockState state_at(const Rational& time) const override;
+  Collision blocks_collision(const Integer& index) const override;
+  BlockState blocks_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
-  PositionBounds bounds_at(const Rational& time) const override;
+  std::optional<PositionBounds> bounds_at(const Rational& time) const override;
   Gaps gaps_at(const Rational& time) const override;
   Gaps gaps_at_collision(const Integer& index) const override;
 
   Integer count_at(const Rational& time) const override { return motion_.count_at(time); }
 
-  /// The first collision at this time or later; size() + 1 if there is none.
-  Integer first_since(const Rational& time) const;
+  Integer first_since(const Rational& time) const override;
 
-  bool is_endless() const { return !motion_.total; }
+  bool is_endless() const override { return !motion_.total; }
   /// As the function of this name in impact.hpp.
-  std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
+  std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
+                                      const Integer& last) const override;
+  /// From collision to collision, or in slices of time if these are too many to be listed.
+  Exposure expose(const Rational& from, const Rational& to) const override;
 
  private:
   /// Count and gaps at a time.
@@ -47,10 +48,5 @@ class InelasticLog final : public PreciseLog {
   Rational blue_offset_;       // x_blue - y1
   Rational red_offset_;        // x_red - y2
 };
-
-/// The log as this class, if it is one.
-inline const InelasticLog* inelastic_log(const Timeline& log) {
-  return dynamic_cast<const InelasticLog*>(&log);
-}
 
 }  // namespace piblocks

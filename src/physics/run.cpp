@@ -7,43 +7,10 @@
 #include "physics/blocks.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/inelastic_log.hpp"
-#include "physics/precise_log.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
-
-/// Asks the log for one collision after the other.
-class IndexedStream final : public CollisionStream {
- public:
-  IndexedStream(const CollisionLog& log, Integer first, Integer last)
-      : log_(log), next_(std::move(first)), last_(std::move(last)) {}
-
-  bool read(CollisionBatch& batch) override {
-    batch.first = next_;
-    for (batch.size = 0; batch.size < CollisionBatch::kCapacity && next_ <= last_; ++batch.size) {
-      const Collision c = log_.collision(next_);
-      batch.kind[batch.size] = c.kind;
-      batch.time_hi[batch.size] = c.time.hi;
-      batch.time_lo[batch.size] = c.time.lo;
-      batch.blue_position[batch.size] = c.blue.position;
-      batch.blue_velocity[batch.size] = c.blue.velocity;
-      batch.red_position[batch.size] = c.red.position;
-      batch.red_velocity[batch.size] = c.red.velocity;
-      ++next_;
-    }
-    return batch.size > 0;
-  }
-
- private:
-  const CollisionLog& log_;
-  Integer next_;
-  Integer last_;
-};
-
-const PreciseLog* precise_log(const CollisionLog& log) {
-  return dynamic_cast<const PreciseLog*>(&log);
-}
 
 /// Precision of a time before it is rounded to two doubles.
 constexpr mpfr_prec_t kCollapseBits = 160;
@@ -59,20 +26,16 @@ std::string endless_message(const InelasticMotion& motion) {
                    "until a time, as --to 10");
 }
 
-/// Rounding may have carried a stepping engine past a contact.
-Gaps gaps_between(const BlockSystem& system, const Motion& blue, const Motion& red) {
-  const Rational blue_width = system.blue.width;
-  const double y1 = blue.position - to_double(system.wall_face + blue_width / 2);
-  const double y2 = red.position - to_double(system.wall_face + blue_width + system.red.width / 2);
-  return {std::max(0.0, y1), std::max({0.0, y1, y2})};
-}
-
 }  // namespace
 
 std::optional<Rational> turn_of(const BlockSystem& system) {
   if (!is_elastic(system)) return InelasticMotion(system).turn();
   const ExactMotion motion(system);
   return motion.at_rest() ? std::nullopt : std::optional(motion.closest_approach);
+}
+
+std::optional<Rational> turn_of(const Log& log) {
+  return log.pair() ? turn_of(log.pair()->blocks()) : std::nullopt;
 }
 
 Rational mass_ratio_of(int digits, int base) {
@@ -172,20 +135,20 @@ void require_last(const Integer& index, const Integer& last_at_its_time) {
   if (index != last_at_its_time) throw TiedCollision(index, last_at_its_time);
 }
 
-std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,
-                                                      const Integer& last) const {
-  return std::make_unique<IndexedStream>(*this, first, last);
-}
-
-std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
+std::unique_ptr<CollisionLog> make_collision_log(const TwoBlocks& blocks, Engine engine) {
+  const BlockSystem& system = blocks.blocks;
   require_valid(problems_of(system));
-  if (engine == Engine::events) return make_stored_log(system);
-  if (!is_elastic(system)) return std::make_unique<InelasticLog>(system);
+  if (engine == Engine::events) return make_stored_log(blocks);
+  if (!is_elastic(system)) return std::make_unique<InelasticLog>(blocks);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
   const bool is_at_rest = system.blue.velocity == 0 && system.red.velocity == 0;
-  if (system.red.mass <= system.blue.mass || is_at_rest) return make_exact_log(system);
-  return std::make_unique<UnfoldedLog>(system);
+  if (system.red.mass <= system.blue.mass || is_at_rest) return make_exact_log(blocks);
+  return std::make_unique<UnfoldedLog>(blocks);
+}
+
+std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
+  return make_collision_log(two_blocks_of(system), engine);
 }
 
 Integer count_collisions(const BlockSystem& system) {
@@ -205,11 +168,6 @@ std::optional<Collapse> collapse_of(const BlockSystem& system) {
   return Collapse{end ? std::optional(end->to_double_double()) : std::nullopt, motion.listed};
 }
 
-bool is_endless(const Timeline& log) {
-  const InelasticLog* const inelastic = inelastic_log(log);
-  return inelastic != nullptr && inelastic->is_endless();
-}
-
 std::optional<Corner> corner_of(const BlockSystem& system) {
   require_valid(problems_of(system));
   if (!is_elastic(system)) return InelasticMotion(system).corner();
@@ -224,24 +182,6 @@ std::optional<Corner> corner_of(const BlockSystem& system) {
   motion.blocks_first = !motion.blocks_first;
   corner.other_count = motion.total();
   return corner;
-}
-
-std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time) {
-  if (const PreciseLog* const precise = precise_log(log)) return precise->bounds_at(time);
-  return std::nullopt;
-}
-
-Gaps gaps_at(const CollisionLog& log, const Rational& time) {
-  if (const PreciseLog* const precise = precise_log(log)) return precise->gaps_at(time);
-  const BlockState now = log.state_at(time);
-  return gaps_between(log.system(), now.blue, now.red);
-}
-
-Gaps gaps_at_collision(const CollisionLog& log, const Integer& index) {
-  if (const PreciseLog* const precise = precise_log(log)) return precise->gaps_at_collision(index);
-  const Collision now = log.collision(index);
-  const Gaps gaps = gaps_between(log.system(), now.blue, now.red);
-  return now.kind == CollisionKind::wall ? Gaps{0, gaps.y2} : Gaps{gaps.y2, gaps.y2};
 }
 
 }  // namespace piblocks

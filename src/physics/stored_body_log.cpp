@@ -32,25 +32,39 @@ Rational short_time(const Rational& time, const std::optional<Rational>& next) {
   }
 }
 
-/// Steps are computed when they are first asked for.
-class StoredBodyLog final : public BodyLog {
+/// Steps are computed when they are first asked for, and stay.
+class StoredBodyLog final : public Log {
  public:
-  StoredBodyLog(const BodySystem& system, const std::optional<Rational>& until)
-      : BodyLog(system),
+  StoredBodyLog(const BodySystem& system, const std::optional<Rational>& horizon)
+      : Log(system),
         stepper_(system.dimensions == 1 ? make_line_stepper(system) : make_disc_stepper(system)),
         start_(motions_at_start(system)),
-        of_body_(system.bodies.size()) {
-    if (until) {
-      set_range(1, count_at(*until));
-      is_cut_ = !is_complete_;
-    } else {
-      while (add_step()) {
-      }
-      set_range(1, Integer(steps_.size()));
-    }
+        horizon_(horizon),
+        never_ends_(may_never_end(system)),
+        of_body_(system.bodies.size()) {}
+
+  bool has(const Integer& index) const override {
+    compute_up_to(index);
+    const std::shared_lock lock(mutex_);
+    return index >= 1 && steps_.size() >= index;
   }
 
+  Integer last() const override {
+    if (never_ends_) {
+      if (horizon_) return count_at(*horizon_);
+      throw UsageError(
+          "time.to: these bodies may collide for ever; say until when, as time.to = 10");
+    }
+    compute([&] { return is_complete_; });
+    const std::shared_lock lock(mutex_);
+    return Integer(steps_.size());
+  }
+
+  bool never_ends() const override { return never_ends_; }
+  bool has_last() const override { return !never_ends_ || horizon_; }
+
   BodyCollision collision(const Integer& index) const override {
+    compute_up_to(index);
     const std::shared_lock lock(mutex_);
     const StoredStep& step = steps_.at(index.get_ui() - 1);
     return {index, step.time, step.first, step.second, step.first_after, step.second_after};
@@ -78,6 +92,7 @@ class StoredBodyLog final : public BodyLog {
   }
 
   Rational time_after(const Integer& index) const override {
+    compute_until(to_rational(collision_time(index)));
     const std::shared_lock lock(mutex_);
     std::size_t last = index.get_ui() - 1;
     const Rational time = time_of(last);
@@ -102,20 +117,21 @@ class StoredBodyLog final : public BodyLog {
     return paths;
   }
 
-  std::optional<Rational> turn() const override { return std::nullopt; }
-  bool may_go_on() const override { return is_cut_; }
-  Integer exact_size() const override {
+  bool is_exact(const Integer& index) const override {
+    compute_up_to(index);
     const std::shared_lock lock(mutex_);
-    return std::min(Integer(exact_times_.size()), size());
+    return exact_times_.size() >= index;
   }
-  std::optional<Integer> first_tie() const override {
+  std::optional<Integer> first_tie(const Integer& last) const override {
+    compute_up_to(last);
     const std::shared_lock lock(mutex_);
-    return first_tie_;
+    return first_tie_ && *first_tie_ <= last ? first_tie_ : std::nullopt;
   }
-  std::optional<double> certain_until() const override {
+  std::optional<double> certain_until(const Rational& time) const override {
+    compute_until(time);
     const std::shared_lock lock(mutex_);
     const double until = stepper_->certainty().until;
-    return until == Certainty::kForEver ? std::nullopt : std::optional(until);
+    return until <= to_double(time) ? std::optional(until) : std::nullopt;
   }
 
  private:
@@ -177,29 +193,39 @@ class StoredBodyLog final : public BodyLog {
     return points;
   }
 
-  /// Unless the last step is later than that, or there are no more.
-  void compute_until(const Rational& time) const {
+  /// Steps until this is true, which asks under the lock.
+  template <typename IsComputed>
+  void compute(const IsComputed& is_computed) const {
     {
       const std::shared_lock lock(mutex_);
-      if (is_computed_until(time)) return;
+      if (is_computed()) return;
     }
     const std::unique_lock lock(mutex_);
-    while (!is_computed_until(time)) add_step();
+    while (!is_computed()) add_step();
+  }
+
+  void compute_up_to(const Integer& index) const {
+    compute([&] { return is_complete_ || steps_.size() >= index; });
+  }
+
+  /// Unless the last step is later than that, or there are no more.
+  void compute_until(const Rational& time) const {
+    compute([&] { return is_computed_until(time); });
   }
 
   bool is_computed_until(const Rational& time) const {
     return is_complete_ || (!steps_.empty() && time_of(steps_.size() - 1) > time);
   }
 
-  /// @return false if there are no more
-  bool add_step() const {
+  void add_step() const {
     const std::optional<BodyStep> step = stepper_->step();
     is_complete_ = !step;
-    if (is_complete_) return false;
+    if (is_complete_) return;
     if (steps_.size() == static_cast<std::size_t>(kMaxBodyCollisions)) {
       throw SimulationError(fmt::format(
-          "bodies: more than {} collisions until time {:.6g}; show less time, or fewer bodies",
-          readable(to_integer(kMaxBodyCollisions)), step->time.hi));
+          "bodies: more than {} collisions until time {:.6g}; show or count those until an earlier "
+          "time, as --to {:.4g}",
+          readable(to_integer(kMaxBodyCollisions)), step->time.hi, step->time.hi * 0.9));
     }
     const auto number = static_cast<std::uint32_t>(steps_.size());
     if (step->exact_time) exact_times_.push_back(*step->exact_time);
@@ -209,13 +235,9 @@ class StoredBodyLog final : public BodyLog {
       Numbers& own = of_body_[body];
       own.push_back(number);
     }
-    BodyMotion second_after = step->second_after;
-    if (step->second >= of_body_.size()) {
-      const Wall& wall = system().walls[step->second - of_body_.size()];
-      second_after = {{to_double(wall.point[0]), to_double(wall.point[1])}, {}};
-    }
-    steps_.push_back({step->time, step->first, step->second, step->first_after, second_after});
-    return true;
+    const bool is_wall = step->second >= of_body_.size();
+    steps_.push_back({step->time, step->first, step->second, step->first_after,
+                      is_wall ? motion_at_start(system(), step->second) : step->second_after});
   }
 
   /// The steps up to this time, which have been computed.
@@ -240,7 +262,8 @@ class StoredBodyLog final : public BodyLog {
   mutable std::shared_mutex mutex_;
   std::unique_ptr<BodyStepper> stepper_;
   std::vector<BodyMotion> start_;
-  bool is_cut_ = false;
+  std::optional<Rational> horizon_;
+  bool never_ends_;
   mutable bool is_complete_ = false;
   mutable std::vector<StoredStep> steps_;
   mutable std::vector<Rational> exact_times_;  // of the first steps
@@ -250,9 +273,9 @@ class StoredBodyLog final : public BodyLog {
 
 }  // namespace
 
-std::unique_ptr<BodyLog> make_stored_body_log(const BodySystem& system,
-                                              const std::optional<Rational>& until) {
-  return std::make_unique<StoredBodyLog>(system, until);
+std::unique_ptr<Log> make_stored_body_log(const BodySystem& system,
+                                          const std::optional<Rational>& horizon) {
+  return std::make_unique<StoredBodyLog>(system, horizon);
 }
 
 }  // namespace piblocks

@@ -107,12 +107,12 @@ class StoredLog final : public CollisionLog {
   /// @param forward   collisions at times >= 0, in order.
   /// @param backward  collisions of the run with all velocities reversed, in its order and with
   ///                  its times and velocities.
-  StoredLog(const BlockSystem& system, StoredCollisions forward, StoredCollisions backward)
-      : CollisionLog(system), forward_(std::move(forward)), backward_(std::move(backward)) {
+  StoredLog(const TwoBlocks& blocks, StoredCollisions forward, StoredCollisions backward)
+      : CollisionLog(blocks), forward_(std::move(forward)), backward_(std::move(backward)) {
     set_range(1 - Integer(backward_.size()), forward_.size());
   }
 
-  Collision collision(const Integer& index) const override {
+  Collision blocks_collision(const Integer& index) const override {
     if (index > 0) {
       const StoredCollision& c = forward_[index.get_ui() - 1];
       return {index, c.time, c.kind, c.blue, c.red};
@@ -121,8 +121,8 @@ class StoredLog final : public CollisionLog {
     // reversed run.
     const std::size_t place = Integer(-index).get_ui();
     const StoredCollision& c = backward_[place];
-    const Motion blue = place == 0 ? motion_of(system().blue) : reversed(backward_[place - 1].blue);
-    const Motion red = place == 0 ? motion_of(system().red) : reversed(backward_[place - 1].red);
+    const Motion blue = place == 0 ? motion_of(blocks().blue) : reversed(backward_[place - 1].blue);
+    const Motion red = place == 0 ? motion_of(blocks().red) : reversed(backward_[place - 1].red);
     return {index,
             negated(c.time),
             c.kind,
@@ -130,9 +130,9 @@ class StoredLog final : public CollisionLog {
             {c.red.position, red.velocity}};
   }
 
-  BlockState state_at(const Rational& time) const override {
+  BlockState blocks_at(const Rational& time) const override {
     const Time now = to_time(time);
-    BlockState state{0, motion_of(system().blue), motion_of(system().red)};
+    BlockState state{0, motion_of(blocks().blue), motion_of(blocks().red)};
     Time since;
     if (const std::size_t happened = count(forward_, now, true); happened > 0) {
       const StoredCollision& c = forward_[happened - 1];
@@ -150,8 +150,8 @@ class StoredLog final : public CollisionLog {
   }
 
   Rational time_after(const Integer& index) const override {
-    Rational time = to_rational(collision(index).time);
-    if (state_at(time).count == index) return time;
+    Rational time = to_rational(blocks_collision(index).time);
+    if (blocks_at(time).count == index) return time;
     throw SimulationError(fmt::format(
         "collision #{}: in double precision it cannot be told apart from its neighbours; use the "
         "closed form (--engine unfolded)",
@@ -165,7 +165,8 @@ class StoredLog final : public CollisionLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system) {
+std::unique_ptr<CollisionLog> make_stored_log(const TwoBlocks& two_blocks) {
+  const BlockSystem& system = two_blocks.blocks;
   if (!is_elastic(system)) {
     throw UsageError(
         "event loop: its collisions are elastic; for blocks.restitution and wall.restitution use "
@@ -179,7 +180,7 @@ std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system) {
         "unfolded)",
         readable(count), readable(to_integer(kMaxStoredCollisions))));
   }
-  return std::make_unique<StoredLog>(system, event_loop(system), event_loop(reversed(system)));
+  return std::make_unique<StoredLog>(two_blocks, event_loop(system), event_loop(reversed(system)));
 }
 
 std::vector<std::string> physics_library_versions() {

@@ -43,11 +43,11 @@ ExactMotion checked(const BlockSystem& system) {
 
 }  // namespace
 
-UnfoldedLog::UnfoldedLog(const BlockSystem& system)
-    : PreciseLog(system), exact_(checked(system)), form_(system, exact_) {
+UnfoldedLog::UnfoldedLog(const TwoBlocks& two_blocks)
+    : CollisionLog(two_blocks), exact_(checked(blocks())), form_(blocks(), exact_) {
   set_range(form_.first_index, form_.size);
   const bool touches = exact_.y1 == 0 || exact_.y1 == exact_.y2;
-  if (touches && !exact_.through_corner()) contact_ = state_at(0).count;
+  if (touches && !exact_.through_corner()) contact_ = blocks_at(0).count;
 }
 
 double UnfoldedLog::tau_near(const Time& t) const {
@@ -117,7 +117,7 @@ Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const 
   return {*point.ray + Integer(whole), point.phase - whole};
 }
 
-BlockState UnfoldedLog::state_at(const Rational& time) const {
+BlockState UnfoldedLog::blocks_at(const Rational& time) const {
   const LinePoint point = point_at(time);
   return state_of(point, phase_of(point, time), time);
 }
@@ -131,7 +131,7 @@ BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
   const Integer count = exact_.count_from_ray(at.ray);
   // Until the first collision the motion of the system is more exact than any angle.
   if (count == 0) {
-    return finite({count, motion_at(system().blue, time), motion_at(system().red, time)});
+    return finite({count, motion_at(blocks().blue, time), motion_at(blocks().red, time)});
   }
   // Folded back by an even number of rays, the point is at this angle to the wall. After an odd ray
   // it is on the other side, and its velocity is reflected once more.
@@ -169,7 +169,7 @@ Time UnfoldedLog::time(const Integer& from, const Integer& to, const RayView& vi
   return {form_.time_from_start(-start.sign, from_start, view.ray), 0};
 }
 
-Collision UnfoldedLog::collision(const Integer& index) const {
+Collision UnfoldedLog::blocks_collision(const Integer& index) const {
   const Integer ray = ray_of(index);
   const bool odd = is_odd(ray);
   const RayView seen = view_of(ray, ray);
@@ -191,7 +191,7 @@ Collision UnfoldedLog::collision(const Integer& index) const {
 
 Rational UnfoldedLog::time_after(const Integer& index) const {
   if (!exact_.through_corner()) return exact_.time_past(ray_of(index));
-  require_last(index, state_at(exact_.closest_approach).count);
+  require_last(index, blocks_at(exact_.closest_approach).count);
   return exact_.closest_approach;
 }
 
@@ -200,20 +200,21 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
   // Times and distances are greatest at the ends of a range. If a double can hold those, it can
   // hold all between.
   if (first <= last) {
-    collision(first);
-    collision(last);
+    blocks_collision(first);
+    blocks_collision(last);
   }
   return make_unfolded_stream(form_, {ray_of(first), ray_of(last), first}, contact_);
 }
 
-PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {
+std::optional<PositionBounds> UnfoldedLog::bounds_at(const Rational& time) const {
   const double distance =
       rounded::hypot(form_.corner_distance, form_.speed * tau_at(time, to_time(time)));
   // An offset is rounded once, and once more in the sum.
   const auto bound = [&](double gap, double offset) {
     return kUnitRoundoff * (8 * gap + 2 * std::fabs(offset) + distance);
   };
-  return {bound(distance + form_.ell, form_.blue_offset), bound(distance, form_.red_offset)};
+  return PositionBounds{bound(distance + form_.ell, form_.blue_offset),
+                        bound(distance, form_.red_offset)};
 }
 
 Gaps UnfoldedLog::gaps_at(const Rational& time) const {

@@ -7,32 +7,32 @@
 
 #include "physics/exact_motion.hpp"
 #include "physics/impact.hpp"
-#include "physics/precise_log.hpp"
 #include "physics/unfolded_exposure.hpp"
 #include "physics/unfolding.hpp"
 
 namespace piblocks {
 
 /// Doubles are enough for positions at any number of digits (README.md, "Why doubles are enough").
-class UnfoldedLog final : public PreciseLog {
+class UnfoldedLog final : public CollisionLog {
  public:
   /// @throws UsageError if the mass ratio is beyond 2^2000.
   /// @throws SimulationError if the blocks pass the corner closer than a double can tell.
-  explicit UnfoldedLog(const BlockSystem& system);
+  explicit UnfoldedLog(const TwoBlocks& two_blocks);
 
-  Collision collision(const Integer& index) const override;
-  BlockState state_at(const Rational& time) const override;
+  Collision blocks_collision(const Integer& index) const override;
+  BlockState blocks_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
-  PositionBounds bounds_at(const Rational& time) const override;
+  std::optional<PositionBounds> bounds_at(const Rational& time) const override;
   Gaps gaps_at(const Rational& time) const override;
   Gaps gaps_at_collision(const Integer& index) const override;
 
   /// As the functions of these names in impact.hpp.
-  std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
-  Integer count_near(const Time& time) const;
+  std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
+                                      const Integer& last) const override;
+  Integer count_near(const Time& time) const override;
   /// As in exposure.hpp, for first <= last.
-  Exposure expose(const Rational& first, const Rational& last) const;
+  Exposure expose(const Rational& first, const Rational& last) const override;
 
  private:
   /// A point on the line, seen from the nearer end of time.
@@ -76,10 +76,5 @@ class UnfoldedLog final : public PreciseLog {
   Unfolding form_;
   std::optional<Integer> contact_;  // index of the collision that happens exactly at time 0
 };
-
-/// The log as this class, if it is one.
-inline const UnfoldedLog* closed_form(const CollisionLog& log) {
-  return dynamic_cast<const UnfoldedLog*>(&log);
-}
 
 }  // namespace piblocks

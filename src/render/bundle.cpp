@@ -140,7 +140,7 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
   const FilmSegment& segment = *film.scene();
   const FilmRun& shown = segment.runs().front();
   const Scene& scene = shown.scene();
-  const RunLog& run = shown.log();
+  const Log& run = shown.log();
   const Schedule& schedule = *segment.schedule();
   FileSet files(job.bundle->folder, "bundle");
   write_poster(job, film, frames_before_reversal(scene, schedule) - 1, files);

@@ -18,12 +18,12 @@ namespace piblocks {
 namespace {
 
 /// The place of the run whose last collision comes last; the first of several.
-std::size_t longest(const std::vector<RunLog>& logs) {
+std::size_t longest(const std::vector<std::unique_ptr<Log>>& logs) {
   std::size_t found = 0;
   std::optional<Rational> latest;
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    const Timeline& log = logs[i].timeline();
-    if (log.size() == 0) continue;
+    const Log& log = *logs[i];
+    if (!exists(Instant::last(), log)) continue;
     Rational last = time_of(Instant::last(), log);
     if (latest && last <= *latest) continue;
     latest = std::move(last);
@@ -70,7 +70,7 @@ std::vector<Voice> voices_of(const Film& film) {
       const auto stretches = segment.schedule()->stretches();
       Voice& voice = voices.emplace_back(
           Voice{.scene = run.scene(),
-                .log = run.timeline(),
+                .log = run.log(),
                 .stretches = {stretches.begin(), stretches.end()},
                 .begin_s = Rational(to_integer(placed.first_frame)) / rate,
                 .end_s = Rational(to_integer(placed.first_frame + segment.frame_count())) / rate});
@@ -86,20 +86,20 @@ std::vector<Voice> voices_of(const Film& film) {
 
 }  // namespace
 
-FilmRun::FilmRun(Scene scene, RunLog log, FilmUse use)
+FilmRun::FilmRun(Scene scene, std::unique_ptr<const Log> log, FilmUse use)
     : scene_(std::move(scene)), log_(std::move(log)) {
   if (use == FilmUse::audio_only) return;
-  if (const BodyLog* const bodies = log_.bodies()) {
-    composition_.emplace(scene_, *bodies, read_logo(scene_));
+  if (scene_.bodies) {
+    composition_.emplace(scene_, *log_, read_logo(scene_));
   } else {
-    composition_.emplace(scene_, *log_.blocks(), read_logo(scene_));
+    composition_.emplace(scene_, *log_->pair(), read_logo(scene_));
   }
 }
 
 DrawList FilmRun::picture(const FrameTime& shown, const Rational& speed,
                           const VideoTime* video_time) const {
-  if (log_.bodies() != nullptr) return picture_of_bodies(shown, speed);
-  const CollisionLog& blocks = *log_.blocks();
+  if (scene_.bodies) return picture_of_bodies(shown, speed);
+  const CollisionLog& blocks = *log_->pair();
   const FrameNeeds& needs = composition_->needs();
   return composition_->frame(video_time == nullptr
                                  ? frame_state(blocks, shown, needs)
@@ -109,10 +109,9 @@ DrawList FilmRun::picture(const FrameTime& shown, const Rational& speed,
 DrawList FilmRun::picture_of_bodies(const FrameTime& shown, const Rational& speed) const {
   Rational last = shown.time;
   for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
-  const BodyLog& bodies = *log_.bodies();
-  require_certain(scene_, bodies, last);
+  require_certain(scene_, *log_, last);
   constexpr int kTrail_s = 2;  // of video where nothing slows it down
-  return composition_->frame(frame_state(bodies, shown, composition_->needs(), speed * kTrail_s));
+  return composition_->frame(frame_state(*log_, shown, composition_->needs(), speed * kTrail_s));
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
@@ -127,8 +126,8 @@ std::vector<DrawList> FilmRun::stills(std::span<const Rational> times,
   const bool depends_on_video = needs.hits || needs.video_s || needs.trails ||
                                 scene_.view.shutter > 0 || has_slow_motion(scene_.pacing);
   std::optional<Schedule> schedule;
-  if (depends_on_video && has_span(scene_, timeline())) {
-    schedule = make_schedule(scene_, timeline());
+  if (depends_on_video && has_span(scene_, log())) {
+    schedule = make_schedule(scene_, log());
   }
   const Rational speed = schedule ? schedule->speed() : nominal_speed(scene_);
   std::vector<DrawList> pictures;
@@ -138,8 +137,7 @@ std::vector<DrawList> FilmRun::stills(std::span<const Rational> times,
       const VideoTime video_time{*schedule, *video_s};
       pictures.push_back(picture(schedule->at(*video_s, open_s(scene_.view)), speed, &video_time));
     } else {
-      pictures.push_back(
-          picture(frame_time_alone(scene_, timeline(), time, speed), speed, nullptr));
+      pictures.push_back(picture(frame_time_alone(scene_, log(), time, speed), speed, nullptr));
     }
     on_picture();
   }
@@ -172,21 +170,21 @@ FilmSegment::FilmSegment(const Card& card, const View& film, FilmUse use) {
 }
 
 void FilmSegment::show_one(Scene scene, FilmUse use) {
-  RunLog log(scene);
-  schedule_ = make_schedule(scene, log.timeline());
+  std::unique_ptr<Log> log = log_of(scene);
+  schedule_ = make_schedule(scene, *log);
   frame_count_ = film_frames(*schedule_);
   runs_.emplace_back(std::move(scene), std::move(log), use);
 }
 
 void FilmSegment::compare(const Scenes& scenes, Split split, const View& film, FilmUse use) {
   split_.emplace(film, scenes.size(), split);
-  std::vector<RunLog> logs;
-  for (const Scene& scene : scenes) logs.emplace_back(scene);
+  std::vector<std::unique_ptr<Log>> logs;
+  for (const Scene& scene : scenes) logs.push_back(log_of(scene));
   const std::size_t leader = longest(logs);
   const Scene leading = with_film_view(scenes[leader], film);
-  schedule_ = make_schedule(leading, logs[leader].timeline());
+  schedule_ = make_schedule(leading, *logs[leader]);
   frame_count_ = film_frames(*schedule_);
-  const Span span = span_of(leading, logs[leader].timeline());
+  const Span span = span_of(leading, *logs[leader]);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     Scene scene = with_film_view(scenes[i], film);
     scene.view.width_px = split_->cells()[i].width_px;

@@ -36,11 +36,10 @@ class FilmRun {
  public:
   /// @param log  of the scene.
   /// @throws UsageError, DrawError, MediaError as Composition and read_logo().
-  FilmRun(Scene scene, RunLog log, FilmUse use);
+  FilmRun(Scene scene, std::unique_ptr<const Log> log, FilmUse use);
 
   const Scene& scene() const noexcept { return scene_; }
-  const RunLog& log() const noexcept { return log_; }
-  const Timeline& timeline() const { return log_.timeline(); }
+  const Log& log() const noexcept { return *log_; }
   /// A frame by a schedule, which may be another run's. @param number  >= 0
   DrawList frame(const Schedule& schedule, std::int64_t number) const;
   /// A picture of each time: the first frame that shows the time. If no frame does, a frame that
@@ -62,7 +61,7 @@ class FilmRun {
   DrawList picture_of_bodies(const FrameTime& shown, const Rational& speed) const;
 
   Scene scene_;
-  RunLog log_;
+  std::unique_ptr<const Log> log_;
   std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
 };
 

@@ -45,7 +45,7 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoTime& video_ti
     now_s = std::max(stretch.video_s, begin_s);
     if (stretch.speed == 0) continue;
     const Rational from = stretch.time + stretch.speed * (now_s - stretch.video_s);
-    Integer before = log.state_at(from).count;
+    Integer before = log.blocks_at(from).count;
     if (before != count) {
       found.push_back({stretch, std::min(before, count) + 1, std::max(before, count)});
     }
@@ -81,7 +81,7 @@ std::vector<AgedCollision> newest(const CollisionLog& log, const std::vector<Pas
     Integer index = forward ? passage.last : passage.first;
     for (Integer left = passage.size(); left > 0; --left, index += forward ? -1 : 1) {
       if (found.size() == kNewest) return found;
-      Collision collision = log.collision(index);
+      Collision collision = log.blocks_collision(index);
       const Rational way_s = (time_of(log, collision, stretch) - stretch.time) / stretch.speed;
       const double age_s = to_double(video_s - stretch.video_s - way_s);
       // Only rounding can make a hit later than the moment.
@@ -99,13 +99,13 @@ double rate_of(const std::vector<AgedCollision>& three) {
 }
 
 Hit hit_of(const CollisionLog& log, const AgedCollision& aged) {
-  const BlockSystem& system = log.system();
+  const BlockSystem& system = log.blocks();
   const Collision& collision = aged.collision;
   const double contact = collision.kind == CollisionKind::wall
                              ? to_double(system.wall_face)
                              : collision.blue.position + to_double(system.blue.width / 2);
   return {collision.kind, collision.index, contact, aged.age_s,
-          gaps_at_collision(log, collision.index)};
+          log.gaps_at_collision(collision.index)};
 }
 
 bool is_moving(const VideoTime& video_time) {
@@ -116,7 +116,7 @@ bool is_moving(const VideoTime& video_time) {
 
 }  // namespace
 
-FrameState frame_state(const BodyLog& log, const FrameTime& shown, const FrameNeeds& needs,
+FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
                        const Rational& trail) {
   constexpr std::size_t kMostCorners = 100;
   BodiesState now = log.state_at(shown.time);
@@ -134,12 +134,12 @@ FrameState frame_state(const BodyLog& log, const FrameTime& shown, const FrameNe
 }
 
 FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs) {
-  FrameState state{log.state_at(shown.time), shown.time, shown.slowdown};
+  FrameState state{log.blocks_at(shown.time), shown.time, shown.slowdown};
   state.exposure.reserve(shown.exposure.size());
   for (const TimeSlice& slice : shown.exposure) {
     state.exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
   }
-  if (needs.gaps) state.gaps = gaps_at(log, shown.time);
+  if (needs.gaps) state.gaps = log.gaps_at(shown.time);
   return state;
 }
 

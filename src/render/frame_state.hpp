@@ -17,7 +17,7 @@ struct VideoTime {
 };
 
 /// The bodies at a time. @param trail  simulation time that trails go back
-FrameState frame_state(const BodyLog& log, const FrameTime& shown, const FrameNeeds& needs,
+FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
                        const Rational& trail);
 
 /// State, time and exposure; gaps if they are needed; no hits.

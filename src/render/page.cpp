@@ -97,7 +97,7 @@ std::string base64_text(std::string_view text) {
 void write_page(const FilmSegment& shown, const fs::path& video, std::int64_t frames,
                 OutputFile& page) {
   const Scene& scene = shown.runs().front().scene();
-  const RunLog& run = shown.runs().front().log();
+  const Log& run = shown.runs().front().log();
   const Schedule& schedule = *shown.schedule();
   const VideoCount count = video_count(scene, run, schedule);
   const Rational& rate = scene.view.frame_rate;

@@ -164,8 +164,8 @@ std::vector<std::string> notes_of(const Plan& plan) {
   std::vector<std::string> notes = plan.output.notes;
   for (const PlacedSegment& placed : plan.film.segments()) {
     for (const FilmRun& run : placed.segment.runs()) {
-      const Rational end = span_of(run.scene(), run.timeline()).to;
-      auto note = tie_note(run.log(), run.timeline().count_at(end));
+      const Rational end = span_of(run.scene(), run.log()).to;
+      auto note = tie_note(run.log(), run.log().count_at(end));
       if (note && std::ranges::find(notes, *note) == notes.end()) notes.push_back(*std::move(note));
     }
   }

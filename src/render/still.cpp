@@ -58,11 +58,11 @@ void write_picture(const std::string& output, const char* command, const std::st
 
 FilmRun run_of(const Scene& scene) {
   require_valid(problems_of(scene));
-  return {scene, RunLog(scene), FilmUse::pictures};
+  return {scene, log_of(scene), FilmUse::pictures};
 }
 
 DrawList picture_of(const FilmRun& run, const Instant& instant) {
-  return run.still(time_of(instant, run.timeline()));
+  return run.still(time_of(instant, run.log()));
 }
 
 /// A4, landscape, in points, and in pixels of 200 to the inch.
@@ -92,7 +92,7 @@ struct ShownCollisions {
   Integer size() const { return last > before ? Integer(last - before) : 0; }
 };
 
-ShownCollisions collisions_of(const Span& span, const Timeline& log) {
+ShownCollisions collisions_of(const Span& span, const Log& log) {
   return {log.count_at(span.from), log.count_at(span.to)};
 }
 
@@ -131,7 +131,7 @@ Spacing usual_spacing(const Scene& scene, const Span& span, const ShownCollision
   return shows_turn && is_enough ? Spacing::count : Spacing::time;
 }
 
-std::vector<Instant> spread_over(const Scene& scene, const Timeline& log, const Spread& spread) {
+std::vector<Instant> spread_over(const Scene& scene, const Log& log, const Spread& spread) {
   const auto& [pictures, by] = spread;
   check_count(pictures < 0 ? 0 : static_cast<std::size_t>(pictures));
   const Span span = span_of(scene, log);
@@ -148,7 +148,7 @@ std::vector<CaptionedPicture> pictures_of(const FilmRun& run, const std::vector<
                                           const std::stop_token& stop) {
   std::vector<Rational> times;
   times.reserve(instants.size());
-  for (const Instant& instant : instants) times.push_back(time_of(instant, run.timeline()));
+  for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
   const std::vector<std::string> captions = sheet_captions(run.scene(), instants, times);
   std::vector<CaptionedPicture> pictures;
   Progress progress{0, static_cast<std::int64_t>(times.size())};
@@ -194,7 +194,7 @@ void render_still(const Script& script, const Instant& instant, const std::strin
 
 std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
   require_valid(problems_of(scene));
-  return spread_over(scene, RunLog(scene).timeline(), {pictures, by});
+  return spread_over(scene, *log_of(scene), {pictures, by});
 }
 
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
@@ -211,8 +211,7 @@ void render_sheet(const Scene& scene, const SheetInstants& instants, const std::
   if (named != nullptr) check_count(named->size());
   const FilmRun run = run_of(scene);
   std::vector<CaptionedPicture> pictures = pictures_of(
-      run,
-      named != nullptr ? *named : spread_over(scene, run.timeline(), std::get<Spread>(instants)),
+      run, named != nullptr ? *named : spread_over(scene, run.log(), std::get<Spread>(instants)),
       on_progress, stop);
   const bool is_png = draw == draw_page_png;
   write_picture(output, "sheet", stop, [&] {

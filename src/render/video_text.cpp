@@ -37,13 +37,13 @@ std::string reached(const VideoCount& count) {
                        left == 1 ? "is" : "are");
   }
   if (count.total == 0) return number + ": there are no collisions from time 0 on";
-  if (count.may_go_on) return collisions(count.at_end);
-  if (count.at_end == count.total) {
-    return all_collisions(count.total, count.is_endless) +
+  if (!count.total) return collisions(count.at_end);
+  if (count.at_end == *count.total) {
+    return all_collisions(*count.total, count.is_endless) +
            (count.is_endless ? ", after which both blocks rest"
                              : ", after which there are no more");
   }
-  return fmt::format("{} of {}", number, all_collisions(count.total, count.is_endless));
+  return fmt::format("{} of {}", number, all_collisions(*count.total, count.is_endless));
 }
 
 std::string collision_words(const BlockSystem& system) {
@@ -107,12 +107,11 @@ Integer milestone_of(const Integer& count) {
 /// What a film counts, and how its captions say so.
 class CountWords {
  public:
-  CountWords(const Scene& scene, const RunLog& run, const std::vector<Integer>& shown)
+  CountWords(const Scene& scene, const Log& log, const std::vector<Integer>& shown)
       : least_(*std::ranges::min_element(shown)), most_(*std::ranges::max_element(shown)) {
-    const Timeline& log = run.timeline();
-    if (most_ != log.size()) return;
+    if (log.has(most_ + 1)) return;
     is_endless_ = is_endless(log);
-    if (log.may_go_on() || is_endless_) return;
+    if (is_endless_) return;
     ending_ = ", after which there are no more";
     const PiWords pi = pi_words(scene, most_);
     if (!pi.which.empty()) ending_ += ": " + pi.which;
@@ -159,10 +158,11 @@ std::int64_t frames_before_reversal(const Scene& scene, const Schedule& schedule
   return scene.pacing.loop ? frames / 2 + 1 : frames;
 }
 
-VideoCount video_count(const Scene& scene, const RunLog& run, const Schedule& schedule) {
-  const Timeline& log = run.timeline();
+VideoCount video_count(const Scene& scene, const Log& log, const Schedule& schedule) {
   const std::int64_t last = frames_before_reversal(scene, schedule) - 1;
-  return {log.count_at(schedule.time_of(last)), log.size(), is_endless(log), log.may_go_on()};
+  const Integer at_end = log.count_at(schedule.time_of(last));
+  const bool is_known = log.pair() != nullptr || !log.has(at_end + 1);
+  return {at_end, is_known ? std::optional(log.last()) : std::nullopt, is_endless(log)};
 }
 
 std::string title_of(const Scene& scene, const VideoCount& count) {
@@ -172,7 +172,7 @@ std::string title_of(const Scene& scene, const VideoCount& count) {
   }
   return fmt::format("Masses {} and {}: {}", short_text(scene.system.blue.mass),
                      short_text(scene.system.red.mass),
-                     all_collisions(count.total, count.is_endless));
+                     all_collisions(*count.total, count.is_endless));
 }
 
 std::string describe_video(const Scene& scene, const VideoCount& count) {
@@ -184,8 +184,8 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
       base == kUsualBase || is_infinite
           ? ""
           : fmt::format(" It is written in base {}: {}.", base, count_text(count.at_end, base));
-  const bool is_whole = count.at_end == count.total && !count.is_endless && !count.may_go_on;
-  const PiWords pi = is_whole ? pi_words(scene, count.total) : PiWords{};
+  const bool is_whole = count.at_end == count.total && !count.is_endless;
+  const PiWords pi = is_whole ? pi_words(scene, *count.total) : PiWords{};
   if (!pi.which.empty()) {
     written +=
         fmt::format(" The count has {}{}{}.", pi.which, pi.digits.empty() ? "" : ": ", pi.digits);
@@ -199,15 +199,15 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
       motion_words(system.red), collision_words(system), reached(count), written);
 }
 
-std::string captions(const Scene& scene, const RunLog& run, const Schedule& schedule) {
+std::string captions(const Scene& scene, const Log& log, const Schedule& schedule) {
   constexpr int kLong_s = 1;
   const Rational& frame_rate = scene.view.frame_rate;
   const std::int64_t frames = film_frames(schedule);
   std::vector<Integer> shown;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
-    shown.push_back(run.timeline().count_at(schedule.time_of(frame)));
+    shown.push_back(log.count_at(schedule.time_of(frame)));
   }
-  CountWords words(scene, run, shown);
+  CountWords words(scene, log, shown);
   std::vector<Cue> cues;
   for (auto begin = shown.begin(); begin != shown.end();) {
     const auto end =

@@ -6,6 +6,7 @@
 #include <piblocks/scene.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "scene/run_log.hpp"
@@ -15,14 +16,13 @@ namespace piblocks {
 
 /// Collisions that a video counts, and those of the whole run.
 struct VideoCount {
-  Integer at_end;  ///< when the video has come furthest
-  Integer total;
-  bool is_endless = false;  ///< whether `total` stands for infinitely many
-  bool may_go_on = false;   ///< whether `total` is only the count until some time
+  Integer at_end;                     ///< when the video has come furthest
+  std::optional<Integer> total = {};  ///< of two blocks, and of all that the video shows to the end
+  bool is_endless = false;            ///< whether `total` stands for infinitely many
 };
 
 /// @throws UsageError as film_frames().
-VideoCount video_count(const Scene& scene, const RunLog& run, const Schedule& schedule);
+VideoCount video_count(const Scene& scene, const Log& log, const Schedule& schedule);
 
 /// Number of frames until a loop turns back; of all frames without a loop.
 /// @throws UsageError as film_frames().
@@ -40,6 +40,6 @@ std::string describe_video(const Scene& scene, const VideoCount& count);
 /// 100 and so on. A caption ends where the next one begins. Times are those of frames, rounded up
 /// to milliseconds. Before time 0 captions give the number of collisions until time 0.
 /// @throws UsageError as film_frames().
-std::string captions(const Scene& scene, const RunLog& run, const Schedule& schedule);
+std::string captions(const Scene& scene, const Log& log, const Schedule& schedule);
 
 }  // namespace piblocks

@@ -63,22 +63,24 @@ Rational parse_offset(std::string_view text) {
 
 /// The index of the collision that the anchor names. Nothing if it names none, or the run has no
 /// such collision.
-std::optional<Integer> anchoring_collision(const Instant& instant, const Timeline& log) {
-  if (instant.anchor == Anchor::last && log.size() > 0) return log.size();
-  const bool is_there = instant.index >= log.first_index() && instant.index <= log.size();
-  if (instant.anchor == Anchor::collision && is_there) return instant.index;
+std::optional<Integer> anchoring_collision(const Instant& instant, const Log& log) {
+  if (instant.anchor == Anchor::last) {
+    const Integer last = log.last();
+    return last > 0 ? std::optional(last) : std::nullopt;
+  }
+  if (instant.anchor == Anchor::collision && log.has(instant.index)) return instant.index;
   return std::nullopt;
 }
 
-std::string named_collisions(const Timeline& log) {
-  if (log.size() < log.first_index()) return "no collisions";
+std::string named_collisions(const Log& log) {
+  if (log.last() < log.first_index()) return "no collisions";
   return fmt::format(
       "{} #{} to #{}",
       is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
-      log.first_index().get_str(), log.size().get_str());
+      log.first_index().get_str(), log.last().get_str());
 }
 
-[[noreturn]] void fail_missing(const Instant& instant, const Timeline& log) {
+[[noreturn]] void fail_missing(const Instant& instant, const Log& log) {
   if (instant.anchor == Anchor::turn) {
     throw UsageError(
         "'turn': there is no turn; only two blocks beside a wall have one, if they move; give a "
@@ -112,16 +114,21 @@ std::string exact_text(const Instant& instant) {
   return text + (instant.offset > 0 ? "+" : "") + offset;
 }
 
-bool exists(const Instant& instant, const Timeline& log) {
+bool exists(const Instant& instant, const Log& log) {
   if (instant.is_time()) return true;
-  if (instant.anchor == Anchor::turn) return log.turn().has_value();
-  return anchoring_collision(instant, log).has_value();
+  if (instant.anchor == Anchor::turn) return turn_of(log).has_value();
+  if (instant.anchor == Anchor::last && !log.has_last()) return false;
+  try {
+    return anchoring_collision(instant, log).has_value();
+  } catch (const SimulationError&) {  // too many collisions until then
+    return false;
+  }
 }
 
-Rational time_of(const Instant& instant, const Timeline& log) {
+Rational time_of(const Instant& instant, const Log& log) {
   if (instant.is_time()) return instant.offset;
   if (instant.anchor == Anchor::turn) {
-    const std::optional<Rational> turn = log.turn();
+    const std::optional<Rational> turn = turn_of(log);
     if (!turn) fail_missing(instant, log);
     return *turn + instant.offset;
   }

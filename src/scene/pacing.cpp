@@ -47,10 +47,10 @@ struct Middle {
 
 /// The collisions that are shown, by index; where there is a turn, those near it, since the closed
 /// form has more than can be looked at.
-std::pair<Integer, Integer> candidates(const Timeline& log, const Span& span) {
+std::pair<Integer, Integer> candidates(const Log& log, const Span& span) {
   Integer first = log.count_at(span.from) + 1;
   Integer last = log.count_at(span.to);
-  if (const std::optional<Rational> turn = log.turn()) {
+  if (const std::optional<Rational> turn = turn_of(log)) {
     const Integer middle = log.count_at(*turn);
     first = std::max(first, Integer(middle - kTogether));
     last = std::min(last, Integer(middle + kTogether));
@@ -58,8 +58,7 @@ std::pair<Integer, Integer> candidates(const Timeline& log, const Span& span) {
   return {first, last};
 }
 
-std::optional<Middle> middle_of_bodies(const Timeline& log, const Span& span,
-                                       const Rational& speed) {
+std::optional<Middle> middle_of_bodies(const Log& log, const Span& span, const Rational& speed) {
   const auto [first, last] = candidates(log, span);
   if (last <= first) return std::nullopt;
   const Integer steps = std::min(Integer(kTogether), Integer(last - first));
@@ -79,7 +78,7 @@ std::optional<Middle> middle_of_bodies(const Timeline& log, const Span& span,
   return Middle{(from + to) / 2, shortest > 0 ? rate : HUGE_VAL};
 }
 
-std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Timeline& log,
+std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Log& log,
                                        const Rational& speed) {
   if (!is_elastic(system)) {
     const auto densest = InelasticMotion(system).densest();
@@ -88,11 +87,11 @@ std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Timeline
     return Middle{time, rate ? to_double(Rational(*rate * speed)) : HUGE_VAL};
   }
   const std::optional<Rational> turn = turn_of(system);
-  if (!turn || log.size() < log.first_index()) return std::nullopt;
+  if (!turn || !log.has(log.first_index())) return std::nullopt;
   return Middle{*turn, rate_at_turn(system, speed)};
 }
 
-std::vector<Move> automatic_windows(const Scene& scene, const Timeline& log, const Span& span) {
+std::vector<Move> automatic_windows(const Scene& scene, const Log& log, const Span& span) {
   const Rational speed = nominal_speed(scene);
   const std::optional<Middle> middle = scene.bodies ? middle_of_bodies(log, span, speed)
                                                     : middle_of_blocks(scene.system, log, speed);
@@ -129,7 +128,7 @@ void check(const Move& window, const Span& span) {
 }
 
 /// In order, apart, inside the span. A window is half-open: from <= time < to.
-std::vector<Move> slow_windows(const Scene& scene, const Timeline& log, const Span& span) {
+std::vector<Move> slow_windows(const Scene& scene, const Log& log, const Span& span) {
   std::vector<Move> windows;
   if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log, span);
   for (const SlowMotion& slow : scene.pacing.slow_motion) {
@@ -152,7 +151,7 @@ std::vector<Move> slow_windows(const Scene& scene, const Timeline& log, const Sp
 }
 
 /// In order, inside the span.
-std::vector<Move> freezes_of(const Scene& scene, const Timeline& log, const Span& span) {
+std::vector<Move> freezes_of(const Scene& scene, const Log& log, const Span& span) {
   std::vector<Move> freezes;
   for (const Freeze& freeze : scene.pacing.freezes) {
     const Rational time = time_of(freeze.at, "time.freeze", log);
@@ -168,7 +167,7 @@ std::vector<Move> freezes_of(const Scene& scene, const Timeline& log, const Span
 
 }  // namespace
 
-Rational time_of(const Instant& instant, const char* key, const Timeline& log) {
+Rational time_of(const Instant& instant, const char* key, const Log& log) {
   try {
     return time_of(instant, log);
   } catch (const UsageError& error) {
@@ -184,7 +183,7 @@ Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {
   return Rational(ceil(length_s * frame_rate)) / frame_rate;
 }
 
-std::vector<Move> moves_of(const Scene& scene, const Timeline& log, const Span& span) {
+std::vector<Move> moves_of(const Scene& scene, const Log& log, const Span& span) {
   const std::vector<Move> windows = slow_windows(scene, log, span);
   const std::vector<Move> freezes = freezes_of(scene, log, span);
   std::vector<Move> moves;

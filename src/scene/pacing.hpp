@@ -20,7 +20,7 @@ struct Move {
 };
 
 /// time_of(instant, log) for the value of a key, which messages name.
-Rational time_of(const Instant& instant, const char* key, const Timeline& log);
+Rational time_of(const Instant& instant, const char* key, const Log& log);
 
 /// The speed that windows and eases are measured by. A duration sets the speed once they are known,
 /// and scales them.
@@ -32,6 +32,6 @@ Rational whole_frames(const Rational& length_s, const Rational& frame_rate);
 /// The moves that fill the span.
 /// @throws UsageError as time_of(); if windows of slow motion overlap, or do not end after they
 ///         begin; if a window or a freeze that the scene names is outside of the span.
-std::vector<Move> moves_of(const Scene& scene, const Timeline& log, const Span& span);
+std::vector<Move> moves_of(const Scene& scene, const Log& log, const Span& span);
 
 }  // namespace piblocks

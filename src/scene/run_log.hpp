@@ -1,8 +1,7 @@
-// The run of a scene: the collisions of blue, red and the wall, or those of its bodies.
-// In: a scene without problems. Out: its log, of either kind.
+// The run of a scene.
+// In: a scene without problems. Out: its log; what has to be said of it.
 #pragma once
 
-#include <piblocks/bodies.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
@@ -12,34 +11,20 @@
 
 namespace piblocks {
 
-/// One of two logs. What needs only times and counts takes timeline().
-class RunLog {
- public:
-  /// @throws as make_collision_log(), or make_body_log() of a scene with bodies; UsageError if the
-  ///         scene shows what is not certain and does not allow that.
-  explicit RunLog(const Scene& scene);
-  RunLog(std::unique_ptr<CollisionLog> log) : blocks_(std::move(log)) {}
-
-  const Timeline& timeline() const {
-    if (blocks_) return *blocks_;
-    return *bodies_;
-  }
-  /// Nothing if the scene has bodies.
-  const CollisionLog* blocks() const noexcept { return blocks_.get(); }
-  /// Nothing if the scene has none.
-  const BodyLog* bodies() const noexcept { return bodies_.get(); }
-
- private:
-  std::unique_ptr<CollisionLog> blocks_;
-  std::unique_ptr<BodyLog> bodies_;
-};
+/// Nothing is computed yet. Where collisions may never end, those until scene.time.to count, if
+/// that is a time.
+/// @throws as make_log()
+std::unique_ptr<Log> log_of(const Scene& scene);
 
 /// @throws UsageError if bodies are not certain at this time, unless the scene allows that.
-void require_certain(const Scene& scene, const BodyLog& log, const Rational& time);
+void require_certain(const Scene& scene, const Log& log, const Rational& time);
 
-/// What to tell the user if the order of pairs decides what happens up to this collision, as far as
-/// the log has been computed; nothing of two blocks and a wall.
-std::optional<std::string> tie_note(const RunLog& log, const Integer& last);
+/// The same of all collisions up to this one.
+void require_certain_until(const Scene& scene, const Log& log, const Integer& last);
+
+/// What to tell the user if the order of ties decides what happens up to this collision; nothing of
+/// two blocks and a wall.
+std::optional<std::string> tie_note(const Log& log, const Integer& last);
 
 /// @param what  in the message: an option
 /// @throws UsageError if the scene has bodies: only two blocks and a wall can be shown that way.

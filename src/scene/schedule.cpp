@@ -83,12 +83,12 @@ std::vector<Stretch> played_back(std::vector<Stretch> stretches, const Rational&
 
 }  // namespace
 
-bool has_span(const Scene& scene, const Timeline& log) {
+bool has_span(const Scene& scene, const Log& log) {
   return exists(scene.time.from, log) && exists(scene.time.to, log);
 }
 
-Span span_of(const Scene& scene, const Timeline& log) {
-  if (scene.time.to.anchor == Instant::Anchor::last && log.size() == 0) {
+Span span_of(const Scene& scene, const Log& log) {
+  if (scene.time.to.anchor == Instant::Anchor::last && log.last() == 0) {
     throw UsageError(
         "time.to: no collision happens from time 0 on, so the video cannot end with the last one; "
         "give a time, as time.to = 10");
@@ -96,7 +96,7 @@ Span span_of(const Scene& scene, const Timeline& log) {
   return {time_of(scene.time.from, "time.from", log), time_of(scene.time.to, "time.to", log)};
 }
 
-Schedule make_schedule(const Scene& scene, const Timeline& log) {
+Schedule make_schedule(const Scene& scene, const Log& log) {
   const Span span = span_of(scene, log);
   if (span.to <= span.from) {
     throw UsageError(
@@ -138,7 +138,7 @@ std::int64_t film_frames(const Schedule& schedule) {
                   readable(frames), readable(to_integer(kMaxFrames))));
 }
 
-FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time,
+FrameTime frame_time_alone(const Scene& scene, const Log& log, const Rational& time,
                            const Rational& speed) {
   FrameTime alone{time};
   if (scene.view.shutter == 0) return alone;

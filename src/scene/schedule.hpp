@@ -48,11 +48,11 @@ struct Span {
 };
 
 /// Whether the run has the instants between which the scene is shown.
-bool has_span(const Scene& scene, const Timeline& log);
+bool has_span(const Scene& scene, const Log& log);
 
 /// The times between which the scene is shown.
 /// @throws UsageError unless has_span().
-Span span_of(const Scene& scene, const Timeline& log);
+Span span_of(const Scene& scene, const Log& log);
 
 /// Frame k shows what the video shows at k / frame_rate seconds. Nothing is accumulated, so no
 /// frame depends on another.
@@ -97,7 +97,7 @@ class Schedule {
 /// @throws UsageError as span_of(); if the span is empty; if windows of slow motion overlap; if a
 ///         window or a freeze is outside of the span; if the duration leaves no time for the
 ///         motion.
-Schedule make_schedule(const Scene& scene, const Timeline& log);
+Schedule make_schedule(const Scene& scene, const Log& log);
 
 /// The number of frames of a film.
 /// @throws UsageError if they are more than kMaxFrames.
@@ -113,7 +113,7 @@ inline Rational open_s(const View& view) { return view.shutter / view.frame_rate
 
 /// What a picture shows if no video shows its time: time runs at this speed, and stops at the
 /// scene's end.
-FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time,
+FrameTime frame_time_alone(const Scene& scene, const Log& log, const Rational& time,
                            const Rational& speed);
 
 }  // namespace piblocks

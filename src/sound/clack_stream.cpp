@@ -31,7 +31,7 @@ double ClackStream::SampleStretch::sample_at(const Time& t) const {
   return begin + ((t.hi - time.hi) + (t.lo - time.lo)) / time_per_sample;
 }
 
-ClackStream::ClackStream(const Timeline& log, std::span<const Stretch> stretches,
+ClackStream::ClackStream(const Log& log, std::span<const Stretch> stretches,
                          const Rational& duration_s, int rate_hz)
     : log_(log), impulse_unit_(impulse_unit(log)) {
   add_first_instant(stretches, rate_hz);
@@ -92,7 +92,7 @@ Integer ClackStream::count_at(double sample) const {
   const Time time = stretch().time_at(sample);
   // In such slow motion the rounding of count_near() would be audible.
   const bool is_slow = std::fabs(stretch().time_per_sample) < 0x1p-45 * std::fabs(time.hi);
-  return is_slow ? log_.count_at(to_rational(time)) : count_near(log_, time);
+  return is_slow ? log_.count_at(to_rational(time)) : log_.count_near(time);
 }
 
 /// Within a stretch it does not matter in which piece a collision is found, if none is found twice.
@@ -130,7 +130,7 @@ void ClackStream::add_one_by_one(const Piece& piece, std::vector<Clack>& clacks)
 void ClackStream::add_impacts(const Integer& first, const Integer& last, const Piece& piece,
                               std::vector<Clack>& clacks) const {
   for (const CollisionKind kind : {CollisionKind::wall, CollisionKind::blocks}) {
-    const std::optional<Impact> together = impact(log_, kind, first, last);
+    const std::optional<Impact> together = log_.impact(kind, first, last);
     if (!together) continue;
     // If a count was rounded, the time may be just outside of the piece.
     const double sample =

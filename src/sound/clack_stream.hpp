@@ -24,7 +24,7 @@ struct Clack {
 /// Takes the same memory for a film of any length. Used by one thread at a time.
 class ClackStream {
  public:
-  ClackStream(const Timeline& log, std::span<const Stretch> stretches, const Rational& duration_s,
+  ClackStream(const Log& log, std::span<const Stretch> stretches, const Rational& duration_s,
               int rate_hz);
 
   /// Appends the clacks before this sample that were not read yet. None is more than an eighth of a
@@ -63,7 +63,7 @@ class ClackStream {
   void add_impacts(const Integer& first, const Integer& last, const Piece& piece,
                    std::vector<Clack>& clacks) const;
 
-  const Timeline& log_;
+  const Log& log_;
   double impulse_unit_;
   std::vector<SampleStretch> stretches_;
   std::size_t current_ = 0;

@@ -23,7 +23,7 @@ struct Ramp {
 /// A run as a film has it.
 struct Voice {
   const Scene& scene;              ///< must outlive the sound
-  const Timeline& log;             ///< must outlive the sound
+  const Log& log;                  ///< must outlive the sound
   std::vector<Stretch> stretches;  ///< as Schedule has them, from begin_s on
   Rational begin_s = 0;            ///< when it begins in the film, >= 0
   Rational end_s = 0;              ///< > begin_s; it is silent from then on

@@ -106,7 +106,9 @@ std::string keys_json(const Scene& scene, bool of_film) {
 
 std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
   std::vector<std::string> notes = cli::convention_notes(scene);
-  if (auto note = tie_note(run.log(), run.timeline().size())) notes.push_back(*std::move(note));
+  const Log& log = run.log();
+  const Integer last = has_span(scene, log) ? log.count_at(span_of(scene, log).to) : Integer(0);
+  if (auto note = tie_note(log, last)) notes.push_back(*std::move(note));
   return notes;
 }
 
@@ -114,9 +116,8 @@ std::string scene_json(const Scene& scene, const FilmRun& run) {
   const Rational ratio = scene.system.red.mass / scene.system.blue.mass;
   const std::optional<int> digits = digits_of(ratio, scene.show.base);
   return fmt::format(R"("hasTurn":{},"digits":{},"massRatio":{},"bodies":{},"notes":{})",
-                     run.timeline().turn().has_value(),
-                     digits ? fmt::format("{}", *digits) : "null", json_text(ratio.get_str()),
-                     scene.bodies ? bodies_json(*scene.bodies) : "null",
+                     turn_of(run.log()).has_value(), digits ? fmt::format("{}", *digits) : "null",
+                     json_text(ratio.get_str()), scene.bodies ? bodies_json(*scene.bodies) : "null",
                      json_texts(notes_of(scene, run)));
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 std::variant<FilmRun, Film> make_film(const Script& script) {
   if (const auto* const scene = std::get_if<Scene>(&script)) {
-    return FilmRun(*scene, RunLog(*scene), FilmUse::pictures);
+    return FilmRun(*scene, log_of(*scene), FilmUse::pictures);
   }
   return Film(script);
 }
@@ -93,7 +93,7 @@ LiveScript::LiveScript(Script script) : script_(std::move(script)), film_(make_f
 /// A scene without a film still has stills.
 void LiveScript::plan_film(const Scene& scene) {
   try {
-    Schedule schedule = make_schedule(scene, run()->timeline());
+    Schedule schedule = make_schedule(scene, run()->log());
     film_frames(schedule);
     schedule_ = std::move(schedule);
   } catch (const UsageError& error) {
@@ -115,13 +115,13 @@ LiveScript::Place LiveScript::place_of_frame(std::int64_t number) const {
 }
 
 LiveScript::Place LiveScript::place_of(const Instant& instant) const {
-  if (run() != nullptr) return {std::nullopt, Instant(time_of(instant, run()->timeline()))};
+  if (run() != nullptr) return {std::nullopt, Instant(time_of(instant, run()->log()))};
   return place_of_frame(frame_at(std::get<Film>(film_), instant));
 }
 
 std::optional<LiveScript::Place> LiveScript::collision_beside(const Place& place, int step) const {
   if (run() == nullptr) return std::nullopt;
-  const Timeline& log = run()->timeline();
+  const Log& log = run()->log();
   const Rational time = time_of(place.instant, log);
   const Integer count = log.count_at(time);
   if (cli::infinite_count(log) == count) return std::nullopt;
@@ -130,7 +130,7 @@ std::optional<LiveScript::Place> LiveScript::collision_beside(const Place& place
   Integer index = step > 0 ? count + 1 : is_at_collision ? count - 1 : count;
   for (;;) {
     if (index < log.first_index()) return place_of_frame(0);
-    if (index > log.size()) return std::nullopt;
+    if (!log.has(index)) return std::nullopt;
     try {
       return place_of(Instant::collision(index));
     } catch (const TiedCollision& tied) {
@@ -146,7 +146,7 @@ std::optional<LiveScript::Place> LiveScript::collision_beside(const Place& place
 std::optional<std::int64_t> LiveScript::frame_near(const Place& place) const {
   if (place.frame) return place.frame;
   if (!schedule_) return std::nullopt;
-  const Rational time = time_of(place.instant, run()->timeline());
+  const Rational time = time_of(place.instant, run()->log());
   const std::int64_t last = film_frames(*schedule_) - 1;
   const Rational& rate = view_of(script_).frame_rate;
   if (const auto video_s = schedule_->first_shown_s(time)) {
@@ -158,17 +158,15 @@ std::optional<std::int64_t> LiveScript::frame_near(const Place& place) const {
 DrawList LiveScript::picture(const Place& place) const {
   if (run() == nullptr) return std::get<Film>(film_).frame(*place.frame);
   if (place.frame) return run()->frame(*schedule_, *place.frame);
-  return run()->still(time_of(place.instant, run()->timeline()));
+  return run()->still(time_of(place.instant, run()->log()));
 }
 
 std::optional<std::string> LiveScript::state(const Place& place) const {
   if (run() == nullptr) return std::nullopt;
-  const Rational time = time_of(place.instant, run()->timeline());
-  if (const BodyLog* const bodies = run()->log().bodies()) {
-    return cli::state_text(bodies->system(), time, bodies->state_at(time));
-  }
-  const CollisionLog& blocks = *run()->log().blocks();
-  return cli::state_text(time, blocks.state_at(time), cli::infinite_count(blocks));
+  const Rational time = time_of(place.instant, run()->log());
+  const Log& log = run()->log();
+  if (run()->scene().bodies) return cli::state_text(log.system(), time, log.state_at(time));
+  return cli::state_text(time, log.pair()->blocks_at(time), cli::infinite_count(log));
 }
 
 LiveSound::LiveSound(const Script& script) : film_(script, FilmUse::audio_only) {}

@@ -34,8 +34,8 @@ TEST_F(BodiesCli, SayWhenTheOrderOfPairsDecides) {
         "[[body]]\nposition = 0\nvelocity = 1\n[[body]]\nposition = 3\n[[body]]\nposition = 6\n"
         "velocity = -1\n");
   const std::string note =
-      "piblocks: note: at t = 2 a body has several collisions at once: these happen in the order "
-      "of the file, and another order may end otherwise\n";
+      "piblocks: note: at t = 2 a body has several collisions at once: those of movable bodies "
+      "come first, in the order of the file; another order may end otherwise\n";
   for (const Arguments& command : {Arguments{"count", "tie.toml"}, Arguments{"log", "tie.toml"},
                                    Arguments{"state", "tie.toml", "--at", "3"}}) {
     const CommandResult result = piblocks(command);
@@ -79,9 +79,8 @@ TEST_F(BodiesCli, CountsAreThoseOfTheLog) {
 }
 
 TEST_F(BodiesCli, CountsOfEndlessRunsNeedATime) {
-  expect_line(
-      {"count", "endless.toml"},
-      "time.to: bodies between walls may collide for ever; say until when, as time.to = 10");
+  expect_line({"count", "endless.toml"},
+              "time.to: these bodies may collide for ever; say until when, as time.to = 10");
   for (const char* to : {"1", "5", "50", "1/3"}) {
     const auto rows = lines(output_of({"log", "endless.toml", "--to", to}));
     EXPECT_EQ(first_line_of({"count", "endless.toml", "--to", to}),

@@ -69,8 +69,8 @@ TEST_F(SoundTest, ClacksOfTheVideoAreWhereThoseOfTheSoundAloneAre) {
     const std::vector<float> decoded = left("a.mp4");
     ASSERT_GE(decoded.size(), sound.size());
     const auto log = make_collision_log(article_system(std::stoi(digits)));
-    for (Integer index = 1; index <= log->size(); ++index) {
-      const auto at = std::size_t(log->collision(index).time.hi * 48000);
+    for (Integer index = 1; index <= log->last(); ++index) {
+      const auto at = std::size_t(log->blocks_collision(index).time.hi * 48000);
       EXPECT_LE(std::abs(lag(sound, decoded, at - 50, at + 400)), 1) << index.get_str();
     }
     EXPECT_EQ(lag(sound, decoded, 0, sound.size() - 20), 0);
@@ -101,8 +101,8 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
         << name;
     const std::vector<float> decoded = left(name);
     ASSERT_GE(decoded.size() + 20, sound.size()) << name;
-    for (Integer index = 1; index <= log->size(); ++index) {
-      const auto at = std::size_t(log->collision(index).time.hi * 48000);
+    for (Integer index = 1; index <= log->last(); ++index) {
+      const auto at = std::size_t(log->blocks_collision(index).time.hi * 48000);
       EXPECT_LE(std::abs(lag(sound, decoded, at - 50, at + 400)), 1) << name << ", " << index;
     }
   }

@@ -21,7 +21,9 @@ struct Pictures {
   explicit Pictures(const Scene& scene)
       : log(make_collision_log(scene.system)), composition(scene, *log) {}
 
-  DrawList at(const Rational& time) const { return composition.frame({log->state_at(time), time}); }
+  DrawList at(const Rational& time) const {
+    return composition.frame({log->blocks_at(time), time});
+  }
 
   std::unique_ptr<CollisionLog> log;
   Composition composition;

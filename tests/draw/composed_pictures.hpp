@@ -29,10 +29,10 @@ struct Pictures {
       : log(make_collision_log(scene.system)), composition(scene, *log) {}
 
   DrawList at(const Rational& time, const Rational& slowdown = 1) const {
-    return composition.frame({.state = log->state_at(time),
+    return composition.frame({.state = log->blocks_at(time),
                               .time = time,
                               .slowdown = slowdown,
-                              .gaps = gaps_at(*log, time)});
+                              .gaps = log->gaps_at(time)});
   }
 
   std::unique_ptr<CollisionLog> log;

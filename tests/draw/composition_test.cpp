@@ -85,7 +85,7 @@ TEST(Composition, CounterKeepsItsPlaceInEveryBase) {
     };
     const auto first = origin_at(1);
     EXPECT_GT(first.first, 0);
-    const Integer& last = pictures.log->size();
+    const Integer& last = pictures.log->last();
     for (Integer count = 2; count <= last; count += last < 500 ? 1 : 41) {
       EXPECT_EQ(origin_at(count), first) << base << ' ' << count;
     }

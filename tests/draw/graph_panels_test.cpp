@@ -39,7 +39,7 @@ struct Pictures {
   }
   DrawList at(const Rational& time) const {
     return composition.frame(
-        {.state = log->state_at(time), .time = time, .gaps = gaps_at(*log, time)});
+        {.state = log->blocks_at(time), .time = time, .gaps = log->gaps_at(time)});
   }
 
   Scene scene;
@@ -92,7 +92,7 @@ TEST(CountCurve, IsTheLogs) {
     const auto points = count_curve(*log, span, kColumns);
     EXPECT_LT(points.size(), 3000U);
     EXPECT_EQ(points.front().count, 0);
-    EXPECT_EQ(points.back().count, log->state_at(8).count);
+    EXPECT_EQ(points.back().count, log->blocks_at(8).count);
     constexpr double kStep = 1.0 / 64 / kColumns;
     for (std::size_t i = 1; i < points.size(); ++i) {
       const auto& [share, count] = points[i];
@@ -100,11 +100,12 @@ TEST(CountCurve, IsTheLogs) {
       EXPECT_GE(count, points[i - 1].count);
       if (share == points[i - 1].share && count > points[i - 1].count) {
         EXPECT_EQ(count - points[i - 1].count, 1);
-        EXPECT_NEAR(log->collision(count).time.hi / 8, share, kStep) << digits << ' ' << count;
+        EXPECT_NEAR(log->blocks_collision(count).time.hi / 8, share, kStep)
+            << digits << ' ' << count;
       } else if (count > points[i - 1].count) {
         // A straight line ends at the exact counts of its column.
         const Rational time = span.to * std::lround(share * kColumns) / kColumns;
-        EXPECT_EQ(log->state_at(time).count, count) << digits;
+        EXPECT_EQ(log->blocks_at(time).count, count) << digits;
       }
     }
   }
@@ -131,14 +132,14 @@ TEST(CountCurve, BeginsWithWhatHappensAtTheVeryBeginning) {
   const auto points = count_curve(*pictures.log, {0, 1}, 100);
   EXPECT_EQ(points.front().count, 0);
   EXPECT_EQ(points[1].share, 0);
-  EXPECT_EQ(points[1].count, pictures.log->state_at(0).count);
+  EXPECT_EQ(points[1].count, pictures.log->blocks_at(0).count);
   EXPECT_GT(points[1].count, 1);
 }
 
 TEST(CountCurve, TheTurnIsEnlargedUntilStepsAreSeen) {
   for (int digits = 2; digits <= 20; ++digits) {
     const auto log = make_collision_log(article_system(digits));
-    const Integer total = log->size();
+    const Integer total = log->last();
     const InsetLimits limits{.span = {0, 8},
                              .width_share = Rational(1, 3),
                              .most_steps = 12,
@@ -146,10 +147,10 @@ TEST(CountCurve, TheTurnIsEnlargedUntilStepsAreSeen) {
     const auto part = enlarged_turn(*log, limits);
     ASSERT_TRUE(part) << digits;
     const auto& [span, time_factor, count_factor, low, high] = *part;
-    EXPECT_EQ((span.from + span.to) / 2, *turn_of(log->system()));
+    EXPECT_EQ((span.from + span.to) / 2, *turn_of(log->blocks()));
     EXPECT_EQ((span.to - span.from) * time_factor.value(), Rational(8, 3));
-    EXPECT_EQ(log->state_at(span.from).count, low);
-    EXPECT_EQ(log->state_at(span.to).count, high);
+    EXPECT_EQ(log->blocks_at(span.from).count, low);
+    EXPECT_EQ(log->blocks_at(span.to).count, high);
     EXPECT_GE(high - low, 2) << digits;
     EXPECT_LE(high - low, 12) << digits;
     EXPECT_LE((high - low) * count_factor.value(), limits.counts_in_height);
@@ -288,9 +289,9 @@ TEST(CornerPath, HoldsAllCollisionsAtEveryMagnification) {
     const CornerPath path(*log, {0, 8}, 200);
     for (double window = path.greatest_y2(); window > path.least_y2(); window /= 3.7) {
       const ShownPath shown = path.shown({.to = window, .least_apart = window / 100});
-      const Integer seen = log->state_at(8).count;
+      const Integer seen = log->blocks_at(8).count;
       for (Integer k = 1; k <= seen; k += digits < 4 ? 1 : 13) {
-        const Gaps gaps = gaps_at_collision(*log, k);
+        const Gaps gaps = log->gaps_at_collision(k);
         if (gaps.y2 > window) continue;
         const double slack = 1e-9 * window;
         const bool is_filled =
@@ -331,10 +332,10 @@ TEST(PositionPanel, ZoomsWithThePoint) {
       return shown.paths.front().points.view().front().x;
     };
     const double scale =
-        (far.discs.front().centre.x - corner_of(far)) / gaps_at(*pictures.log, 0).y2;
+        (far.discs.front().centre.x - corner_of(far)) / pictures.log->gaps_at(0).y2;
     const Shown near(pictures.at(turn));
     const double zoom =
-        (near.discs.front().centre.x - corner_of(near)) / scale / gaps_at(*pictures.log, turn).y2;
+        (near.discs.front().centre.x - corner_of(near)) / scale / pictures.log->gaps_at(turn).y2;
     EXPECT_NEAR(zoom, std::pow(10, digits - 1), 1e-9 * zoom) << digits;
     EXPECT_TRUE(near.has_text("×10")) << "with an exponent beside it from five digits on";
   }
@@ -354,7 +355,7 @@ TEST(ConservationPanel, SumsAreConstant) {
       EXPECT_TRUE(is_right || std::abs(box.x + box.width - zero) < 1e-9);
       return (is_right ? box.width : -box.width) / first.width;
     };
-    for (Integer k = 1; k <= pictures.log->size(); k += 1) {
+    for (Integer k = 1; k <= pictures.log->last(); k += 1) {
       const BlockState state = state_after(*pictures.log, k);
       const std::vector<RectangleItem> bars = Shown(pictures.composition.frame({state})).bars;
       ASSERT_EQ(bars.size(), 4U);
@@ -368,7 +369,7 @@ TEST(ConservationPanel, SumsAreConstant) {
 TEST(ConservationPanel, EnergyIsShared) {
   const Pictures pictures(3, {{"show.panels", "conservation"}, {"view.size", "1280x720"}});
   const double whole = Shown(pictures.at(0)).bars.front().bounds.width;
-  for (Integer k = 1; k <= pictures.log->size(); k += 1) {
+  for (Integer k = 1; k <= pictures.log->last(); k += 1) {
     const BlockState state = state_after(*pictures.log, k);
     const Shown shown(pictures.composition.frame({state}));
     EXPECT_NEAR(shown.bars.front().bounds.width / whole, state.red.velocity * state.red.velocity,

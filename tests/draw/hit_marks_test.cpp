@@ -58,15 +58,15 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
       const auto items = items_of<PathItem>(frame.items, ItemId::hits);
       const double now = double(number) / 60;
       std::size_t next = 0;
-      for (Integer k = 1; k <= log.size(); ++k) {
-        const Collision collision = log.collision(k);
+      for (Integer k = 1; k <= log.last(); ++k) {
+        const Collision collision = log.blocks_collision(k);
         const double age = now - collision.time.hi;
         if (age < 0 || age >= 0.15 - 1e-9) continue;
         ASSERT_LT(next, items.size());
         const Arc arc = arc_of(items[next++]);
         const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front().bounds;
         const double scale = blue.width;
-        const double present = log.state_at(state.time).blue.position;
+        const double present = log.blocks_at(state.time).blue.position;
         const bool is_wall = collision.kind == CollisionKind::wall;
         const double contact = is_wall ? 0 : collision.blue.position + 0.5;
         EXPECT_NEAR(arc.centre.x, blue.x + (contact - present + 0.5) * scale, 1e-6);

@@ -30,8 +30,8 @@ TEST(Trajectory, BandsCoverWhatBlueDoesAndNoMore) {
         ++bands;
         double low = 1e9;
         double high = 0;
-        for (Integer k = 1; k <= traced.log->size(); k += 1) {
-          const Collision collision = traced.log->collision(k);
+        for (Integer k = 1; k <= traced.log->last(); k += 1) {
+          const Collision collision = traced.log->blocks_collision(k);
           if (collision.time.hi < band.from.time || collision.time.hi > band.to.time) continue;
           const Gaps at = traced.wedge.gaps_of(collision.blue, collision.red);
           low = std::min(low, at.y1);
@@ -52,7 +52,7 @@ TEST(Trajectory, CornersAreTheCollisions) {
     corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
   }
   for (const Integer& k : {Integer(1), Integer(2), Integer(30), Integer(31)}) {
-    const Collision collision = traced.log->collision(k);
+    const Collision collision = traced.log->blocks_collision(k);
     const Gaps at = traced.wedge.gaps_of(collision.blue, collision.red);
     EXPECT_TRUE(std::ranges::any_of(corners, [&](const TimedGaps& corner) {
       return corner.time == collision.time.hi && corner.gaps.y1 == at.y1 && corner.gaps.y2 == at.y2;

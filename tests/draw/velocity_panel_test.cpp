@@ -45,7 +45,7 @@ struct Pictures {
   }
   DrawList after(const Integer& index, double video_s = kMorphed_s) const {
     const bool is_start = index == 0 && log->first_index() > 0;
-    return of(is_start ? log->state_at(0) : state_after(*log, index), video_s);
+    return of(is_start ? log->blocks_at(0) : state_after(*log, index), video_s);
   }
   /// The velocity as a point of the circle of radius 1; y is up.
   Point unit(const Motion& blue, const Motion& red) const {
@@ -128,19 +128,19 @@ class Starts : public testing::TestWithParam<Settings> {};
 TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
   const Pictures pictures(GetParam());
   const CollisionLog& log = *pictures.log;
-  for (Integer count = 0; count <= log.size(); ++count) {
+  for (Integer count = 0; count <= log.last(); ++count) {
     const Figure figure(pictures.after(count));
     const Frame circle(figure);
     const auto red = figure.lines_of(kPalette.red.line);
     const auto blue = figure.lines_of(kPalette.blue.line);
     EXPECT_EQ(Integer(static_cast<unsigned long>(red.size() + blue.size())), count);
     std::map<CollisionKind, std::size_t> seen;
-    const BlockState start = log.state_at(0);
+    const BlockState start = log.blocks_at(0);
     Point before = pictures.unit({0, to_double(pictures.scene.system.blue.velocity)},
                                  {0, to_double(pictures.scene.system.red.velocity)});
     expect_near(figure.discs.front().centre, circle.at(before), "start", start.count);
     for (Integer k = 1; k <= count; ++k) {
-      const Collision collision = log.collision(k);
+      const Collision collision = log.blocks_collision(k);
       const Point after = pictures.unit(collision.blue, collision.red);
       const auto& chords = collision.kind == CollisionKind::wall ? blue : red;
       const std::size_t n = seen[collision.kind]++;
@@ -157,7 +157,7 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
 TEST_P(Starts, ChordsStayWhatTheyAre) {
   const Pictures pictures(GetParam());
   std::map<ItemId, DrawItem> seen;
-  for (Integer count = 0; count <= pictures.log->size(); ++count) {
+  for (Integer count = 0; count <= pictures.log->last(); ++count) {
     const DrawList list = pictures.after(count);
     std::size_t kept = 0;
     ItemId last{};
@@ -177,7 +177,7 @@ TEST_P(Starts, ChordsStayWhatTheyAre) {
 
 TEST_P(Starts, TheEndIsInTheWedge) {
   const Pictures pictures(GetParam());
-  for (Integer count = 0; count <= pictures.log->size(); ++count) {
+  for (Integer count = 0; count <= pictures.log->last(); ++count) {
     const Figure figure(pictures.after(count));
     const Frame circle(figure);
     const auto wedge = std::ranges::find_if(figure.paths, [](const PathItem& path) {
@@ -193,7 +193,7 @@ TEST_P(Starts, TheEndIsInTheWedge) {
     const Point at = figure.present();
     const double angle = std::atan2(corner.y - at.y, at.x - corner.x);
     const bool is_inside = angle > -1e-9 && angle < pictures.theta() + 1e-9;
-    EXPECT_EQ(is_inside, count == pictures.log->size()) << count;
+    EXPECT_EQ(is_inside, count == pictures.log->last()) << count;
   }
 }
 
@@ -215,10 +215,10 @@ TEST(VelocityPanel, CountsFromTheScenesBeginning) {
                            {"time.to", "10"}});
   const CollisionLog& log = *pictures.log;
   ASSERT_LT(log.first_index(), 1);
-  const Integer before = log.state_at(-10).count;
-  for (Integer count = before; count <= log.size(); ++count) {
+  const Integer before = log.blocks_at(-10).count;
+  for (Integer count = before; count <= log.last(); ++count) {
     const BlockState state =
-        count < log.first_index() ? log.state_at(-10) : state_after(log, count);
+        count < log.first_index() ? log.blocks_at(-10) : state_after(log, count);
     const Figure figure(pictures.of(state, 0));
     const Frame circle(figure);
     const auto chords =
@@ -285,7 +285,7 @@ TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
   for (const Settings& start :
        {Settings{{"digits", "4"}}, Settings{{"digits", "4"}, {"blue.velocity", "30"}}}) {
     const Pictures pictures(start);
-    const Integer& last = pictures.log->size();
+    const Integer& last = pictures.log->last();
     for (Integer count = 0; count <= last; count += 53) {
       const DrawList list = pictures.after(count);
       const Figure figure(list);
@@ -297,7 +297,7 @@ TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
       const Point from = pictures.unit({0, to_double(pictures.scene.system.blue.velocity)},
                                        {0, to_double(pictures.scene.system.red.velocity)});
       const BlockState state =
-          count == 0 ? pictures.log->state_at(0) : state_after(*pictures.log, count);
+          count == 0 ? pictures.log->blocks_at(0) : state_after(*pictures.log, count);
       const Point to = pictures.unit(state.blue, state.red);
       const double expected =
           segment(std::abs(std::atan2(to.y, to.x))) - segment(std::abs(std::atan2(from.y, from.x)));
@@ -313,7 +313,7 @@ TEST(VelocityPanel, CostsLittleForAnyNumberOfDigits) {
   for (const int digits : {3, 4, 9, 20, 100, 300}) {
     const Pictures pictures({{"digits", std::to_string(digits)}, {"view.theme", "article"}});
     for (const Rational& time : {Rational(0), Rational(3), Rational(7, 2), Rational(9)}) {
-      EXPECT_LT(pictures.of(pictures.log->state_at(time), 0).items.size(), 60U) << digits;
+      EXPECT_LT(pictures.of(pictures.log->blocks_at(time), 0).items.size(), 60U) << digits;
     }
   }
 }
@@ -335,7 +335,7 @@ TEST(EllipsePanel, FollowsOneMapToTheCircle) {
       ellipse.blue = circle.red;
       ASSERT_EQ(figure.discs.size(), static_cast<std::size_t>(count) + 2);
       for (int k = 1; k <= count; ++k) {
-        const Collision collision = pictures.log->collision(k);
+        const Collision collision = pictures.log->blocks_collision(k);
         expect_near(figure.discs[static_cast<std::size_t>(k)].centre,
                     ellipse.at(pictures.unit(collision.blue, collision.red)), "dot", k);
       }
@@ -418,7 +418,7 @@ TEST_P(Shapes, HoldThePanelsWithoutOverlaps) {
   for (const char* digits : {"1", "2", "3", "5", "8", "13", "20"}) {
     const Pictures pictures({{"digits", digits}, {"view.size", GetParam().size}},
                             GetParam().panels);
-    const Integer& last = pictures.log->size();
+    const Integer& last = pictures.log->last();
     for (const Integer& count : {Integer(0), Integer(1), Integer(last / 2), last}) {
       for (const double video_s : {0.0, 2.2, 3.2, kMorphed_s}) {
         const Figure figure(first_panel(pictures.after(count, video_s)));

@@ -15,7 +15,7 @@ void ask(const Scene& scene) {
   const auto log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   for (const std::int64_t frame : {std::int64_t{0}, film_frames(schedule) - 1}) {
-    log->state_at(schedule.time_of(frame));
+    log->blocks_at(schedule.time_of(frame));
   }
 }
 

@@ -198,7 +198,7 @@ TEST(Compare, OneDigitOfACounterCannotHideInAFrameOf4K) {
   scene.view.width_px = 3840;
   scene.view.height_px = 2160;
   const auto log = make_collision_log(scene.system);
-  BlockState state = log->state_at(time_of(Instant::last(), *log));
+  BlockState state = log->blocks_at(time_of(Instant::last(), *log));
   const Image right = painted(scene, state);
   for (const int wrong : {313, 315, 304, 374, 214}) {
     state.count = wrong;

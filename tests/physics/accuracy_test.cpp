@@ -48,11 +48,11 @@ PositionBounds a_priori_bounds(const BlockSystem& system, const oracle::ExactSta
 /// The state is the oracle's, to the bound that the log gives and to ours.
 void expect_accurate(const BlockSystem& system, const CollisionLog& log, const Rational& t) {
   SCOPED_TRACE("t = " + t.get_str());
-  const BlockState state = log.state_at(t);
+  const BlockState state = log.blocks_at(t);
   const oracle::ExactState exact = oracle::high_precision_state(system, t);
   EXPECT_EQ(state.count, exact.count);
   const PositionBounds ours = a_priori_bounds(system, exact);
-  const PositionBounds given = position_bounds(log, t).value();
+  const PositionBounds given = log.bounds_at(t).value();
   const double blue_error =
       std::fabs(to_double(Rational(state.blue.position) - exact.blue.position));
   const double red_error = std::fabs(to_double(Rational(state.red.position) - exact.red.position));
@@ -74,7 +74,7 @@ TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
     for (const char* text : {"0", "3.5", "4", "6", "3.4999999", "3.50000001", "15"}) {
       const Rational t = parse_rational(text);
       expect_accurate(system, *log, t);
-      const BlockState state = log->state_at(t);
+      const BlockState state = log->blocks_at(t);
       const oracle::ExactState exact = oracle::high_precision_state(system, t);
       EXPECT_NEAR(to_double(Rational(state.blue.position) - exact.blue.position), 0, 1e-13);
       EXPECT_NEAR(to_double(Rational(state.red.position) - exact.red.position), 0, 1e-13);
@@ -105,7 +105,7 @@ TEST(Accuracy, OfRandomSystems) {
   for (int i = 0; i < 400; ++i) {
     const BlockSystem system = random_system(random, -8, 25);
     const auto log = make_collision_log(system);
-    EXPECT_EQ(log->size(), oracle::high_precision_total(system));
+    EXPECT_EQ(log->last(), oracle::high_precision_total(system));
     for (int j = 0; j < 4; ++j) expect_accurate(system, *log, random.rational(-10, 20, 1000));
   }
 }
@@ -129,10 +129,10 @@ TEST(Accuracy, OfTheWholeLog) {
     const BlockSystem system = article_system(digits);
     const auto log = make_collision_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
-    ASSERT_EQ(log->size(), run.size());
+    ASSERT_EQ(log->last(), run.size());
     for (std::size_t i = 0; i < run.size(); ++i) {
       SCOPED_TRACE("collision " + std::to_string(i + 1));
-      const Collision c = log->collision(Integer(i + 1));
+      const Collision c = log->blocks_collision(Integer(i + 1));
       expect_event(run[i], c.kind, c.time, c.blue, c.red);
     }
   }
@@ -144,7 +144,7 @@ TEST(Accuracy, OfTheStreamedLog) {
     const auto log = make_collision_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 4000);
     const auto batch = std::make_unique<CollisionBatch>();
-    const auto stream = log->stream(1, log->size());
+    const auto stream = log->stream(1, log->last());
     std::size_t i = 0;
     while (stream->read(*batch)) {
       for (std::size_t row = 0; row < batch->size; ++row, ++i) {
@@ -162,10 +162,10 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
   // A little after each collision the state is the collision's, moved on.
   const auto log = make_collision_log(article_system(6));
   for (long k = 1; k < 314159; k += 997) {
-    const Collision now = log->collision(k);
-    const Collision next = log->collision(k + 1);
+    const Collision now = log->blocks_collision(k);
+    const Collision next = log->blocks_collision(k + 1);
     const Rational middle = (to_rational(now.time) + to_rational(next.time)) / 2;
-    const BlockState state = log->state_at(middle);
+    const BlockState state = log->blocks_at(middle);
     const double half = to_double(middle - to_rational(now.time));
     EXPECT_EQ(state.count, k);
     EXPECT_NEAR(state.blue.position, now.blue.position + half * now.blue.velocity, 1e-13);
@@ -175,8 +175,7 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
 }
 
 TEST(Accuracy, NoBoundIsClaimedForAnEngineThatSteps) {
-  EXPECT_FALSE(
-      position_bounds(*make_collision_log(article_system(2), Engine::events), 3).has_value());
+  EXPECT_FALSE(make_collision_log(article_system(2), Engine::events)->bounds_at(3).has_value());
 }
 
 TEST(Accuracy, EnergyAndMomentumAreKept) {
@@ -184,12 +183,12 @@ TEST(Accuracy, EnergyAndMomentumAreKept) {
   const auto log = make_collision_log(system);
   const double ratio = to_double(system.blue.mass / system.red.mass);
   for (long k = 1; k <= 3141592; k += 10007) {
-    const Collision c = log->collision(k);
+    const Collision c = log->blocks_collision(k);
     const double energy =
         ratio * c.blue.velocity * c.blue.velocity + c.red.velocity * c.red.velocity;
     EXPECT_NEAR(energy, 1, 1e-15);
     if (c.kind == CollisionKind::blocks) {
-      const Collision before = log->collision(Integer(std::max(1L, k - 1)));
+      const Collision before = log->blocks_collision(Integer(std::max(1L, k - 1)));
       if (k == 1) continue;
       EXPECT_NEAR(ratio * c.blue.velocity + c.red.velocity,
                   ratio * before.blue.velocity + before.red.velocity, 1e-15);

@@ -45,7 +45,7 @@ double share_below(const std::vector<BodyPiece>& pieces, double position) {
 
 TEST(BodyExposure, ListsEveryCollision) {
   // 2000 bounces in 1/10, exactly two of them a 1/1000 of it.
-  const auto log = make_body_log(between_two(90'000), Rational(1));
+  const auto log = make_log(between_two(90'000), Rational(1));
   const BodyExposure exposure = expose(*log, Rational(1, 7), Rational(1, 7) + Rational(1, 10));
   ASSERT_EQ(exposure.pieces.size(), 3U);
   EXPECT_EQ(exposure.pieces[1].size(), 2001U);
@@ -61,7 +61,7 @@ TEST(BodyExposure, ListsEveryCollision) {
 /// At even times it would always be at one place.
 TEST(BodyExposure, FewPointsOfAWayFollowNoRhythm) {
   constexpr std::size_t kPoints = 100;
-  const auto log = make_body_log(between_two(9 * 99), Rational(2));
+  const auto log = make_log(between_two(9 * 99), Rational(2));
   const auto paths = log->paths(0, 1, kPoints);
   ASSERT_EQ(paths.size(), 3U);
   ASSERT_EQ(paths[1].size(), kPoints);
@@ -79,7 +79,7 @@ TEST(BodyExposure, FewPointsOfAWayFollowNoRhythm) {
 }
 
 TEST(BodyExposure, PathsAreThoseOfStates) {
-  const auto log = make_body_log(between_two(Rational(17, 3)), Rational(10));
+  const auto log = make_log(between_two(Rational(17, 3)), Rational(10));
   const Rational from(1, 3);
   for (const Rational& to : {Rational(1, 3), Rational(1, 2), Rational(19, 3), Rational(10)}) {
     const auto paths = log->paths(from, to, kAll);
@@ -103,8 +103,8 @@ TEST(BodyExposure, OfTheClosedFormIsThatOfTheBlocks) {
     system.bodies.push_back({.mass = 1, .position = {sign * 2, 0}});
     system.bodies.push_back(
         {.mass = 100'000'000, .position = {sign * 5, 0}, .velocity = {-sign, 0}});
-    const auto log = make_body_log(system, std::nullopt);
-    ASSERT_TRUE(closed_blocks(*log));
+    const auto log = make_log(system);
+    ASSERT_TRUE(log->pair());
     const BodyExposure exposure = expose(*log, 3, 5);
     EXPECT_TRUE(exposure.pieces.empty());
     ASSERT_TRUE(exposure.closed);

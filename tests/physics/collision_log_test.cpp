@@ -36,7 +36,7 @@ struct Start {
 };
 
 Integer total(const Start& start) {
-  const Integer size = make_collision_log(start.system())->size();
+  const Integer size = make_collision_log(start.system())->last();
   EXPECT_EQ(count_collisions(start.system()), size);
   return size;
 }
@@ -44,7 +44,7 @@ Integer total(const Start& start) {
 TEST(Count, IsTheFirstDigitsOfPi) {
   for (int digits = 1; digits <= 50; ++digits) {
     const Integer expected(std::string(kDigitsOfPi).substr(0, static_cast<std::size_t>(digits)));
-    EXPECT_EQ(make_collision_log(article_system(digits))->size(), expected);
+    EXPECT_EQ(make_collision_log(article_system(digits))->last(), expected);
     EXPECT_EQ(count_collisions(article_system(digits)), expected);
   }
   EXPECT_TRUE(count_collisions(article_system(2000)).get_str().starts_with(kDigitsOfPi));
@@ -160,7 +160,7 @@ TEST(Count, FollowsTheConventionAtCorners) {
   EXPECT_EQ(total({"100", "3/2", "0", "-1", "-1"}), 31);
   // Both gaps closed, red pushing: everything happens at time 0.
   EXPECT_EQ(total({"100", "0", "0", "0", "-1"}), 31);
-  EXPECT_EQ(make_collision_log(Start{"100", "0", "0", "0", "-1"}.system())->state_at(0).count, 31);
+  EXPECT_EQ(make_collision_log(Start{"100", "0", "0", "0", "-1"}.system())->blocks_at(0).count, 31);
 }
 
 TEST(Count, KnowsStartsInContact) {
@@ -174,17 +174,19 @@ TEST(Flights, AreHalfOpen) {
   // The blocks meet at t = 2/(3/10) = 20/3, a time that no double can hold.
   const auto log = make_collision_log(Start{"100", "3/2", "2", "0", "-0.3"}.system());
   const Rational meeting(20, 3);
-  EXPECT_EQ(log->state_at(meeting).count, 1);
-  EXPECT_EQ(log->state_at(meeting - parse_rational("1e-40")).count, 0);
-  EXPECT_EQ(log->state_at(meeting + parse_rational("1e-40")).count, 1);
+  EXPECT_EQ(log->blocks_at(meeting).count, 1);
+  EXPECT_EQ(log->blocks_at(meeting - parse_rational("1e-40")).count, 0);
+  EXPECT_EQ(log->blocks_at(meeting + parse_rational("1e-40")).count, 1);
 }
 
 TEST(Flights, CountACollisionAtTimeZero) {
-  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "-1"}.system())->state_at(0).count, 1);
-  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "1"}.system())->state_at(0).count, 0);
-  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "-1", "0"}.system())->state_at(0).count, 1);
-  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "1", "0"}.system())->state_at(0).count, 0);
-  EXPECT_EQ(make_collision_log(Start{"0.5", "3/2", "0", "0", "-1"}.system())->state_at(0).count, 1);
+  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "-1"}.system())->blocks_at(0).count,
+            1);
+  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "1"}.system())->blocks_at(0).count, 0);
+  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "-1", "0"}.system())->blocks_at(0).count, 1);
+  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "1", "0"}.system())->blocks_at(0).count, 0);
+  EXPECT_EQ(make_collision_log(Start{"0.5", "3/2", "0", "0", "-1"}.system())->blocks_at(0).count,
+            1);
 }
 
 // The rounding of an engine must not carry the first collision past time 0, nor away from it.
@@ -198,21 +200,21 @@ TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
     const BlockSystem system = start.system();
     const auto exact = make_collision_log(system);
     const auto log = make_collision_log(system, Engine::events);
-    EXPECT_EQ(log->state_at(0).count, exact->state_at(0).count) << start.ratio;
+    EXPECT_EQ(log->blocks_at(0).count, exact->blocks_at(0).count) << start.ratio;
     EXPECT_EQ(log->first_index(), exact->first_index()) << start.ratio;
-    EXPECT_TRUE(log->size() == 0 || log->collision(1).time.hi >= 0) << start.ratio;
-    EXPECT_TRUE(log->first_index() == 1 || log->collision(0).time.hi <= 0) << start.ratio;
+    EXPECT_TRUE(log->last() == 0 || log->blocks_collision(1).time.hi >= 0) << start.ratio;
+    EXPECT_TRUE(log->first_index() == 1 || log->blocks_collision(0).time.hi <= 0) << start.ratio;
   }
 }
 
 TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
     const auto log = make_collision_log(article_system(3), engine);
-    EXPECT_NEAR(log->state_at(-1000).red.position, 1005, 1e-10);
-    EXPECT_NEAR(log->state_at(-1000).blue.position, 2, 1e-10);
+    EXPECT_NEAR(log->blocks_at(-1000).red.position, 1005, 1e-10);
+    EXPECT_NEAR(log->blocks_at(-1000).blue.position, 2, 1e-10);
     const BlockState last = state_after(*log, 314);
-    const double duration = 1000 - log->collision(314).time.hi;
-    const BlockState later = log->state_at(1000);
+    const double duration = 1000 - log->blocks_collision(314).time.hi;
+    const BlockState later = log->blocks_at(1000);
     EXPECT_NEAR(later.blue.position, last.blue.position + duration * last.blue.velocity, 1e-9);
     EXPECT_NEAR(later.red.position, last.red.position + duration * last.red.velocity, 1e-9);
   }
@@ -222,10 +224,10 @@ TEST(Flights, CountBackwardsBeforeTimeZero) {
   // Blue comes off the wall, which it must have met before.
   for (const char* ratio : {"100", "1", "0.5"}) {
     const auto log = make_collision_log(Start{ratio, "1", "3", "1", "-1"}.system());
-    EXPECT_EQ(log->state_at(0).count, 0) << ratio;
-    EXPECT_EQ(log->state_at(Rational(-3, 2)).count, -1) << ratio;
-    EXPECT_NEAR(log->state_at(Rational(-3, 2)).blue.position, 1, 1e-14) << ratio;
-    EXPECT_NEAR(log->state_at(Rational(-3, 2)).blue.velocity, -1, 1e-14) << ratio;
+    EXPECT_EQ(log->blocks_at(0).count, 0) << ratio;
+    EXPECT_EQ(log->blocks_at(Rational(-3, 2)).count, -1) << ratio;
+    EXPECT_NEAR(log->blocks_at(Rational(-3, 2)).blue.position, 1, 1e-14) << ratio;
+    EXPECT_NEAR(log->blocks_at(Rational(-3, 2)).blue.velocity, -1, 1e-14) << ratio;
   }
 }
 
@@ -234,7 +236,7 @@ TEST(Log, AlternatesAndBeginsWithTheBlocks) {
     const auto log = make_collision_log(article_system(3), engine);
     double before = 0;
     for (long k = 1; k <= 314; ++k) {
-      const Collision c = log->collision(k);
+      const Collision c = log->blocks_collision(k);
       EXPECT_EQ(c.index, k);
       EXPECT_EQ(c.kind, k % 2 == 1 ? CollisionKind::blocks : CollisionKind::wall);
       EXPECT_GT(c.time.hi, before);
@@ -266,9 +268,9 @@ TEST(Log, EnginesAgree) {
   for (int digits = 1; digits <= 5; ++digits) {
     const auto unfolded = make_collision_log(article_system(digits), Engine::unfolded);
     const auto stepped = make_collision_log(article_system(digits), Engine::events);
-    ASSERT_EQ(unfolded->size(), stepped->size());
-    for (long k = 1; k <= unfolded->size(); ++k) {
-      expect_same(unfolded->collision(k), stepped->collision(k), 1e-8);
+    ASSERT_EQ(unfolded->last(), stepped->last());
+    for (long k = 1; k <= unfolded->last(); ++k) {
+      expect_same(unfolded->blocks_collision(k), stepped->blocks_collision(k), 1e-8);
       ASSERT_FALSE(HasFailure());
     }
   }
@@ -280,8 +282,8 @@ TEST(Log, KeepsAHairBetweenTheMasses) {
   BlockSystem system = article_system(1);
   system.red.mass = 1 + 1 / power(2, 300);
   const auto log = make_collision_log(system);
-  EXPECT_EQ(log->size(), 4);
-  const Collision last = log->collision(4);
+  EXPECT_EQ(log->last(), 4);
+  const Collision last = log->blocks_collision(4);
   EXPECT_EQ(last.kind, CollisionKind::wall);
   EXPECT_GT(last.time.hi, 1e89);
   EXPECT_LT(last.time.hi, 1e92);
@@ -296,9 +298,9 @@ TEST(Log, EnginesAgreeOnEveryKindOfStart) {
         Start{"100", "3/2", "2", "0", "1"}, Start{"7", "0", "2", "-1", "-1/3"}}) {
     const auto unfolded = make_collision_log(start.system());
     const auto stepped = make_collision_log(start.system(), Engine::events);
-    ASSERT_EQ(unfolded->size(), stepped->size());
-    for (long k = 1; k <= unfolded->size(); ++k) {
-      expect_same(unfolded->collision(k), stepped->collision(k), 1e-13);
+    ASSERT_EQ(unfolded->last(), stepped->last());
+    for (long k = 1; k <= unfolded->last(); ++k) {
+      expect_same(unfolded->blocks_collision(k), stepped->blocks_collision(k), 1e-13);
     }
   }
 }
@@ -321,7 +323,7 @@ void expect_streamed(const CollisionLog& log, const Integer& first, const Intege
     ASSERT_EQ(batch->first, next);
     ASSERT_GT(batch->size, 0U);
     for (std::size_t row = 0; row < batch->size; ++row) {
-      expect_same(log.collision(next), row_of(*batch, row), 2e-15);
+      expect_same(log.blocks_collision(next), row_of(*batch, row), 2e-15);
       ++next;
     }
   }
@@ -334,12 +336,12 @@ TEST(Stream, HasEveryCollisionOfAnyRange) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
     for (const int digits : {1, 2, 3, 4}) {
       const auto log = make_collision_log(article_system(digits), engine);
-      expect_streamed(*log, 1, log->size());
+      expect_streamed(*log, 1, log->last());
     }
     const auto log = make_collision_log(article_system(4), engine);
     for (const long first : {1L, 2L, 63L, 64L, 1500L, 1571L, 2000L, 3141L}) {
       for (const long length : {0L, 1L, 2L, 63L, 64L, 65L, 511L, 513L, 1000L}) {
-        expect_streamed(*log, first, std::min<Integer>(log->size(), first + length - 1));
+        expect_streamed(*log, first, std::min<Integer>(log->last(), first + length - 1));
       }
     }
   }
@@ -348,8 +350,8 @@ TEST(Stream, HasEveryCollisionOfAnyRange) {
 TEST(Stream, StartsAnywhereInALogOfAnySize) {
   for (const int digits : {9, 16, 20, 40, 150}) {
     const auto log = make_collision_log(article_system(digits));
-    const Integer middle = log->size() / 2;
-    for (const Integer& first : {Integer(1), Integer(middle - 700), Integer(log->size() - 1200)}) {
+    const Integer middle = log->last() / 2;
+    for (const Integer& first : {Integer(1), Integer(middle - 700), Integer(log->last() - 1200)}) {
       expect_streamed(*log, first, first + 1100);
     }
   }
@@ -360,7 +362,7 @@ TEST(Stream, KnowsMirroredAndLightSystems) {
        {Start{"1000", "0", "3/2", "-1", "-1"}, Start{"0.5", "1", "3", "1", "-1"},
         Start{"100", "3/2", "0", "-1", "-1"}, Start{"100", "3/2", "2", "0", "0"}}) {
     const auto log = make_collision_log(start.system());
-    expect_streamed(*log, 1, log->size());
+    expect_streamed(*log, 1, log->last());
   }
 }
 
@@ -381,7 +383,7 @@ TEST(Log, RefusesToStoreTooMuch) {
 
 TEST(Log, RefusesRatiosBeyondItsRange) {
   EXPECT_THROW(make_collision_log(article_system(400)), UsageError);
-  EXPECT_EQ(make_collision_log(article_system(300))->size().get_str().size(), 300u);
+  EXPECT_EQ(make_collision_log(article_system(300))->last().get_str().size(), 300u);
 }
 
 }  // namespace

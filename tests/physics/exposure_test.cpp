@@ -89,8 +89,8 @@ void expect_the_sum_of_all_flights(const CollisionLog& log, const Rational& begi
   const Exposure exposure = expose(log, begin, end);
   DirectSum blue(BlockName::blue, positions_in(exposure.blue_range));
   DirectSum red(BlockName::red, positions_in(exposure.red_range));
-  const BlockState first = log.state_at(begin);
-  const BlockState last = log.state_at(end);
+  const BlockState first = log.blocks_at(begin);
+  const BlockState last = log.blocks_at(end);
   Time now = to_time(begin);
   double blue_now = first.blue.position;
   double red_now = first.red.position;
@@ -217,7 +217,7 @@ void expect_shares_of_instants(const CollisionLog& log, const Rational& begin, c
   std::vector<BlockState> states;
   for (int i = 0; i < kInstants; ++i) {
     const Rational at = (i + random.rational(0, 1, 1'000'000)) / kInstants;
-    states.push_back(log.state_at(begin + at * (end - begin)));
+    states.push_back(log.blocks_at(begin + at * (end - begin)));
   }
   for (const BlockName block : kBlocks) {
     const Travel range = exposure.range(block);
@@ -275,7 +275,7 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
     const auto log = make_collision_log(article_system(digits));
     for (const Rational& time : {Rational(0), Rational(3, 2), Rational(7, 2), Rational(9)}) {
       const Exposure exposure = expose(*log, time, time);
-      const BlockState state = log->state_at(time);
+      const BlockState state = log->blocks_at(time);
       ASSERT_EQ(exposure.pieces.size(), 1U);
       for (const BlockName block : kBlocks) {
         const double x = position_of(state, block);
@@ -304,7 +304,7 @@ TEST(Exposure, OfACornerPassesIt) {
   BlockSystem system = article_system(5);
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
-  const Rational meeting = log->collision(1).time.hi;
+  const Rational meeting = log->blocks_collision(1).time.hi;
   const Exposure exposure = expose(*log, meeting - 1, meeting + 1);
   EXPECT_FALSE(exposure.area_below);
   expect_distribution(exposure);

@@ -45,14 +45,14 @@ void expect_close(const Gaps& given, const ExactGaps& wanted) {
 void expect_gaps(const BlockSystem& system, const CollisionLog& log, const Rational& time) {
   SCOPED_TRACE("t = " + time.get_str());
   const auto state = oracle::high_precision_state(system, time, kExtraBits);
-  expect_close(gaps_at(log, time), gaps_of(system, state.blue.position, state.red.position));
+  expect_close(log.gaps_at(time), gaps_of(system, state.blue.position, state.red.position));
 }
 
 void expect_gaps_at_collision(const BlockSystem& system, const CollisionLog& log,
                               const Integer& index) {
   SCOPED_TRACE("collision " + index.get_str());
   const auto event = oracle::high_precision_collision(system, index, kExtraBits);
-  const Gaps gaps = gaps_at_collision(log, index);
+  const Gaps gaps = log.gaps_at_collision(index);
   expect_close(gaps, gaps_of(system, event.blue.position, event.red.position));
   if (event.kind == CollisionKind::wall) {
     EXPECT_EQ(gaps.y1, 0);
@@ -116,7 +116,7 @@ TEST(Gaps, JustAfterACollision) {
     const BlockSystem system = article_system(digits);
     const auto log = make_collision_log(system);
     for (std::int64_t i = 0; i < many(10); ++i) {
-      const Integer index = any_index(random, log->size());
+      const Integer index = any_index(random, log->last());
       expect_gaps_at_collision(system, *log, index);
       const Rational time = log->time_after(index);
       expect_gaps(system, *log, time);
@@ -133,8 +133,8 @@ TEST(Gaps, OfRandomSystems) {
     const auto log = make_collision_log(system);
     for (int j = 0; j < 4; ++j) expect_gaps(system, *log, random.rational(-10, 20, 1000));
     expect_gaps(system, *log, turn_of(system).value());
-    if (log->size() == 0) continue;
-    expect_gaps_at_collision(system, *log, any_index(random, log->size()));
+    if (log->last() == 0) continue;
+    expect_gaps_at_collision(system, *log, any_index(random, log->last()));
   }
 }
 
@@ -154,7 +154,7 @@ TEST(Gaps, OfALightRedBlockAreExact) {
   system.red.mass = Rational(1, 3);
   const auto log = make_collision_log(system);
   for (int i = 0; i < 40; ++i) expect_gaps(system, *log, Rational(i) / 7);
-  for (Integer k = 1; k <= log->size(); ++k) expect_gaps_at_collision(system, *log, k);
+  for (Integer k = 1; k <= log->last(); ++k) expect_gaps_at_collision(system, *log, k);
 }
 
 TEST(Gaps, OfEnginesThatStepAreDifferencesOfPositions) {
@@ -163,16 +163,16 @@ TEST(Gaps, OfEnginesThatStepAreDifferencesOfPositions) {
   const auto exact = make_collision_log(system);
   for (int i = 0; i < 200; ++i) {
     const Rational time = Rational(i) / 20;
-    const Gaps gaps = gaps_at(*log, time);
-    EXPECT_NEAR(gaps.y1, gaps_at(*exact, time).y1, 1e-9);
-    EXPECT_NEAR(gaps.y2, gaps_at(*exact, time).y2, 1e-9);
+    const Gaps gaps = log->gaps_at(time);
+    EXPECT_NEAR(gaps.y1, exact->gaps_at(time).y1, 1e-9);
+    EXPECT_NEAR(gaps.y2, exact->gaps_at(time).y2, 1e-9);
     EXPECT_GE(gaps.y1, 0);
     EXPECT_LE(gaps.y1, gaps.y2);
   }
-  for (Integer k = 1; k <= log->size(); ++k) {
-    const Gaps gaps = gaps_at_collision(*log, k);
-    EXPECT_EQ(gaps.y1, log->collision(k).kind == CollisionKind::wall ? 0 : gaps.y2);
-    EXPECT_NEAR(gaps.y2, gaps_at_collision(*exact, k).y2, 1e-9);
+  for (Integer k = 1; k <= log->last(); ++k) {
+    const Gaps gaps = log->gaps_at_collision(k);
+    EXPECT_EQ(gaps.y1, log->blocks_collision(k).kind == CollisionKind::wall ? 0 : gaps.y2);
+    EXPECT_NEAR(gaps.y2, exact->gaps_at_collision(k).y2, 1e-9);
   }
 }
 

@@ -124,22 +124,22 @@ std::set<Integer> indices_of(Random& random, const BlockSystem& system, const Co
   std::set<Integer> result;
   const auto add = [&](const Integer& middle, long reach) {
     for (Integer index = middle - reach; index <= middle + reach; ++index) {
-      if (index >= 1 && index <= log.size()) result.insert(index);
+      if (index >= 1 && index <= log.last()) result.insert(index);
     }
   };
   const Rational turn = turn_of(system).value();
   const Rational flight(1, 1 + random.integer(0, 9));
   add(1, 3);
-  add(log.size(), 2);
-  add(log.size() / 2, 1);
+  add(log.last(), 2);
+  add(log.last() / 2, 1);
   for (const Rational& time : {Rational(turn / 2), turn, Rational(turn * 2), flight}) {
-    if (time > 0) add(log.state_at(time).count, 1);
+    if (time > 0) add(log.blocks_at(time).count, 1);
   }
-  add(Integer(log.size() * random.integer(1, 999) / 1000), 0);
+  add(Integer(log.last() * random.integer(1, 999) / 1000), 0);
   for (int i = 0; i < 4; ++i) {  // at any scale
     const auto bits =
-        random.integer(0, static_cast<long>(mpz_sizeinbase(log.size().get_mpz_t(), 2)));
-    add(Integer(log.size() >> static_cast<unsigned long>(bits)), 0);
+        random.integer(0, static_cast<long>(mpz_sizeinbase(log.last().get_mpz_t(), 2)));
+    add(Integer(log.last() >> static_cast<unsigned long>(bits)), 0);
   }
   return result;
 }
@@ -166,7 +166,7 @@ TEST(HeavyRed, HasEveryCollisionInItsPlace) {
       SCOPED_TRACE("collision " + index.get_str());
       const oracle::ExactEvent exact = oracle::high_precision_collision(system, index, 2500);
       if (!is_in_range(exact.time)) continue;
-      const Collision one = log->collision(index);
+      const Collision one = log->blocks_collision(index);
       compare(system, exact, turn, one.kind, to_rational(one.time), one.blue, one.red, one_by_one);
 
       // In a block with others before or after it.
@@ -200,7 +200,7 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
     for (int j = 0; j < 4; ++j) {
       const Rational time = random.rational(-10, 10, 1000);
       SCOPED_TRACE("t = " + time.get_str());
-      const BlockState given = log->state_at(time);
+      const BlockState given = log->blocks_at(time);
       const oracle::ExactState exact = oracle::high_precision_state(system, time, 2500);
       EXPECT_EQ(given.count, exact.count);
       // What blue has travelled, and from where, is rounded; not how long the turn takes.
@@ -224,7 +224,7 @@ TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
     for (const Integer& index : indices_of(random, system, *log)) {
       SCOPED_TRACE("from collision " + index.get_str());
       const Integer last = index + random.integer(0, 5);
-      if (last > log->size()) continue;
+      if (last > log->last()) continue;
       Rational impulse;
       Rational moment;
       Rational furthest;
@@ -238,7 +238,7 @@ TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
       }
       if (impulse == 0 || !is_in_range(furthest)) continue;
       const Rational mean = moment / impulse;
-      const auto together = impact(*log, CollisionKind::blocks, index, last);
+      const auto together = log->impact(CollisionKind::blocks, index, last);
       ASSERT_TRUE(together.has_value());
       EXPECT_LE(quotient(to_rational(together->time) - mean, time_bound(mean, turn)), 1)
           << together->time.hi << ", not " << to_double(mean);
@@ -304,16 +304,16 @@ TEST(HeavyRed, IsLeftAnInstantAfterTheTimeInItsLog) {
     const Rational turn = turn_of(system).value();
     const auto log = make_collision_log(system, Engine::unfolded);
     for (const Integer& index : {Integer(1), Integer(2), Integer(3), Integer(64), Integer(1000)}) {
-      if (index > log->size()) continue;
+      if (index > log->last()) continue;
       SCOPED_TRACE("collision " + index.get_str());
       const Rational after = log->time_after(index);
-      const Rational time = to_rational(log->collision(index).time);
+      const Rational time = to_rational(log->blocks_collision(index).time);
       // It is after the collision by up to 2^-100 of the time to the turn and of that which the
       // turn takes.
       const oracle::ExactEvent exact = oracle::high_precision_collision(system, index, 2500);
       EXPECT_GE(after, exact.time * (1 - Rational(1 / power(2, 500))));
       EXPECT_LE(abs(time - exact.time), time_bound(exact.time, turn));
-      EXPECT_EQ(log->state_at(after).count, index);
+      EXPECT_EQ(log->blocks_at(after).count, index);
     }
   }
 }

@@ -64,7 +64,7 @@ std::vector<double> mean_of_instants(const Scene& open, std::int64_t frame) {
   constexpr int kInstants = 1000;
   Scene scene = open;
   scene.view.shutter = 0;
-  const auto log = make_body_log(scene.bodies->system, Rational(scene.time.to.offset));
+  const auto log = make_log(scene.bodies->system, Rational(scene.time.to.offset));
   const Schedule schedule = make_schedule(scene, *log);
   const Composition composition(scene, *log);
   const Integer count = log->count_at(schedule.time_of(frame));

@@ -59,13 +59,13 @@ struct Anchored {
 };
 
 std::vector<Anchored> anchors_of(const CollisionLog& log) {
-  const Integer& total = log.size();
-  const Rational turn = *turn_of(log.system());
+  const Integer& total = log.last();
+  const Rational turn = *turn_of(log.blocks());
   return {{Instant::last(), total},
           {Instant::collision(total), total},
           {Instant::collision(1), 1},
           {Instant::collision((total + 1) / 2), (total + 1) / 2},
-          {Instant::turn(), log.state_at(turn).count}};
+          {Instant::turn(), log.blocks_at(turn).count}};
 }
 
 std::string last_count(const Scene& scene) {
@@ -115,10 +115,10 @@ void expect_in_texts(const Scene& scene, const Anchored& at) {
   film.time.from = Rational(0);
   film.time.to = at.instant;
   film.pacing.duration_s = 4;
-  const RunLog log(film);
-  const Schedule schedule = make_schedule(film, log.timeline());
-  EXPECT_EQ(video_count(film, log, schedule).at_end, at.count) << "alt text";
-  std::string text = captions(film, log, schedule);
+  const auto log = log_of(film);
+  const Schedule schedule = make_schedule(film, *log);
+  EXPECT_EQ(video_count(film, *log, schedule).at_end, at.count) << "alt text";
+  std::string text = captions(film, *log, schedule);
   std::erase(text, ',');
   const std::string last = "\n" + at.count.get_str() + " collision";
   EXPECT_NE(text.find(last), std::string::npos) << "captions: " << text;
@@ -180,7 +180,7 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
   film.time.from = Rational(-20);
   film.time.to = Rational(1);
   const auto log = make_collision_log(system);
-  const std::string text = captions(film, RunLog(film), make_schedule(film, *log));
+  const std::string text = captions(film, *log, make_schedule(film, *log));
   EXPECT_NE(text.find("100 collisions or more to go until time 0"), std::string::npos) << text;
   // Count 0 is reached before time 0, and kept after it.
   EXPECT_TRUE(text.ends_with("\nNo collision between now and time 0\n")) << text;
@@ -216,9 +216,9 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
   const auto texts = [](const BlockSystem& system, int base) {
     Scene scene = scene_of(system);
     scene.show.base = base;
-    const RunLog run(scene);
-    const Integer& total = run.timeline().size();
-    return std::pair(captions(scene, run, make_schedule(scene, run.timeline())),
+    const auto run = log_of(scene);
+    const Integer total = run->last();
+    return std::pair(captions(scene, *run, make_schedule(scene, *run)),
                      describe_video(scene, {total, total}));
   };
   for (const auto& [base, digits, words, pi] :
@@ -242,8 +242,8 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
   }
   Scene cut = scene_of(article_system(3));
   cut.time.to = Rational(7, 2);
-  const RunLog run(cut);
-  EXPECT_FALSE(contains(captions(cut, run, make_schedule(cut, run.timeline())), "π"));
+  const auto run = log_of(cut);
+  EXPECT_FALSE(contains(captions(cut, *run, make_schedule(cut, *run)), "π"));
 }
 
 /// "100 or more" would mislead beside a picture that says 313 for seconds.
@@ -257,9 +257,9 @@ TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
     scene.pacing.loop = random.integer(0, 1) == 0;
     scene.pacing.hold_end_s = random.integer(0, 1);
     if (random.integer(0, 1) == 0) scene.pacing.freezes = {{Instant::collision(2), 2}};
-    const RunLog run(scene);
-    const Schedule schedule = make_schedule(scene, run.timeline());
-    std::string text = captions(scene, run, schedule);
+    const auto run = log_of(scene);
+    const Schedule schedule = make_schedule(scene, *run);
+    std::string text = captions(scene, *run, schedule);
     std::erase(text, ',');
     std::map<std::int64_t, std::string> cues;  // by their first frame
     const std::regex cue("00:([0-9]+):([0-9.]+) --> [^\n]*\n([^\n]*)");
@@ -270,8 +270,8 @@ TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
     const std::int64_t frames = film_frames(schedule);
     std::int64_t since = 0;
     for (std::int64_t k = 0; k < frames; ++k) {
-      const Integer count = run.timeline().count_at(schedule.time_of(k));
-      if (k > 0 && count != run.timeline().count_at(schedule.time_of(k - 1))) since = k;
+      const Integer count = run->count_at(schedule.time_of(k));
+      if (k > 0 && count != run->count_at(schedule.time_of(k - 1))) since = k;
       if (count == 0 || k - since + 1 < scene.view.frame_rate) continue;
       ++stood;
       const std::string& said = std::prev(cues.upper_bound(k))->second;
@@ -296,19 +296,18 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     EXPECT_EQ(count_of(still_picture(scene, Instant::last())), "∞");
     EXPECT_EQ(count_of(still_picture(scene, Instant(Rational(9)))), "∞");
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(7))), "7");
-    const Integer before = log->size() - 1;
+    const Integer before = log->last() - 1;
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
-    const std::string text = describe_video(scene, {log->size(), log->size(), true, false});
+    const std::string text = describe_video(scene, {log->last(), log->last(), true});
     EXPECT_EQ(text.find("elastic"), std::string::npos) << text;
     EXPECT_TRUE(contains(text, "The coefficient of restitution is 0.5 between the blocks")) << text;
     EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both")) << text;
-    EXPECT_TRUE(contains(title_of(scene, {7, log->size(), true, false}), "infinitely many"))
-        << text;
+    EXPECT_TRUE(contains(title_of(scene, {7, log->last(), true}), "infinitely many")) << text;
     scene.show.base = 2;
-    EXPECT_FALSE(contains(describe_video(scene, {log->size(), log->size(), true, false}), "base"));
+    EXPECT_FALSE(contains(describe_video(scene, {log->last(), log->last(), true}), "base"));
     scene.show.base = 10;
     scene.time.to = Rational(9);
-    const std::string said = captions(scene, RunLog(scene), make_schedule(scene, *log));
+    const std::string said = captions(scene, *log, make_schedule(scene, *log));
     EXPECT_TRUE(said.ends_with("\nInfinitely many collisions\n")) << said;
   }
 }

@@ -99,10 +99,10 @@ mass-ratio = 3
         EXPECT_TRUE(is_silent(heard.left, from, std::size_t(end))) << "card at " << begin;
         continue;
       }
-      const CollisionLog& log = *placed.segment.runs().front().log().blocks();
+      const CollisionLog& log = *placed.segment.runs().front().log().pair();
       const Stretch& first = placed.segment.schedule()->stretches().front();
       const double at_s =
-          (log.collision(1).time.hi - to_double(first.time)) / to_double(first.speed);
+          (log.blocks_collision(1).time.hi - to_double(first.time)) / to_double(first.speed);
       const double expected = begin + at_s * kRate_hz;
       EXPECT_NEAR(double(onset(heard.left, std::size_t(begin))), expected, 1) << rate;
     }

@@ -44,8 +44,8 @@ std::vector<Pass> all_passes(const CollisionLog& log, const Schedule& schedule) 
     const Rational until_s = i + 1 < stretches.size() ? stretches[i + 1].video_s : end_s;
     if (now.speed == 0) continue;
     const bool is_forward = now.speed > 0;
-    for (Integer k = log.first_index(); k <= log.size(); ++k) {
-      const Collision collision = log.collision(k);
+    for (Integer k = log.first_index(); k <= log.last(); ++k) {
+      const Collision collision = log.blocks_collision(k);
       const Rational pass_s = now.video_s + (exact_time(log, collision) - now.time) / now.speed;
       // The counter changes at a collision's time forwards, and just after it backwards.
       const bool is_in = is_forward ? pass_s > now.video_s && pass_s <= until_s
@@ -134,7 +134,7 @@ Seen expect_true_hits(const CollisionLog& log, const Schedule& schedule) {
     }
     seen.hits += wanted.empty() ? 0 : 1;
     seen.still_frames += wanted.empty() || is_moving ? 0 : 1;
-    expect_hits(state, wanted, log.system(), video_s);
+    expect_hits(state, wanted, log.blocks(), video_s);
   }
   return seen;
 }
@@ -317,7 +317,7 @@ TEST(Hits, DoNotDependOnTheOrderOfFrames) {
 
 TEST(FrameStates, HaveGapsWhereTheyAreNeeded) {
   const auto log = make_collision_log(article_system(20));
-  const FrameTime turn{turn_of(log->system()).value()};
+  const FrameTime turn{turn_of(log->blocks()).value()};
   const Gaps gaps = frame_state(*log, turn, {.gaps = true}).gaps;
   EXPECT_GT(gaps.y2, 1.4e-19);
   EXPECT_LT(gaps.y2, 1.6e-19);

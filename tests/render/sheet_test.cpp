@@ -36,7 +36,7 @@ Scene any_run(Random& random) {
 std::vector<Integer> counts_at(const std::vector<Instant>& instants, const CollisionLog& log) {
   std::vector<Integer> counts;
   for (const Instant& instant : instants) {
-    counts.push_back(log.state_at(time_of(instant, log)).count);
+    counts.push_back(log.blocks_at(time_of(instant, log)).count);
   }
   return counts;
 }
@@ -49,8 +49,8 @@ TEST(SheetInstants, AreEquallyFarApartInCount) {
     const Scene scene = any_run(random);
     const auto log = make_collision_log(scene.system);
     const Span span = span_of(scene, *log);
-    const Integer before = log->state_at(span.from).count;
-    const Integer shown = log->state_at(span.to).count - before;
+    const Integer before = log->blocks_at(span.from).count;
+    const Integer shown = log->blocks_at(span.to).count - before;
     const int pictures = static_cast<int>(random.integer(2, 40));
     if (shown + 1 < pictures) {
       EXPECT_THROW(spread_instants(scene, pictures, Spacing::count), UsageError);

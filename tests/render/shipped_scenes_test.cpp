@@ -115,9 +115,9 @@ TEST(ShippedScenes, EndOnTheirLastCollision) {
     for (const auto& [counters, all] : endings_of(film)) {
       ASSERT_EQ(counters.size(), all.size());
       for (std::size_t k = 0; k < all.size(); ++k) {
-        const Timeline& log = all[k].timeline();
-        if (log.may_go_on()) continue;
-        EXPECT_EQ(counters[k], log.size().get_str(all[k].scene().show.base)) << "run " << k;
+        const Log& log = all[k].log();
+        if (log.never_ends()) continue;
+        EXPECT_EQ(counters[k], log.last().get_str(all[k].scene().show.base)) << "run " << k;
         ++runs;
       }
     }
@@ -137,9 +137,9 @@ TEST(ShippedScenes, ShowTheNumbersThatTheyName) {
       shown.insert(counters.begin(), counters.end());
       for (const FilmRun& run : runs) {
         // What is written in another base is named in both.
-        if (run.scene().show.base != 10) shown.insert(run.timeline().size().get_str());
+        if (run.scene().show.base != 10) shown.insert(run.log().last().get_str());
         // Collisions that never end pass the number that is named.
-        if (!run.timeline().may_go_on()) continue;
+        if (!run.log().never_ends()) continue;
         for (std::int64_t k = 0; k < film.frame_count(); ++k) {
           for (std::string& count : counters_of(film.frame(k).items)) shown.insert(count);
         }

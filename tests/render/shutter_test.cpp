@@ -42,7 +42,7 @@ Rectangle bounds_of(const DrawList& list, ItemId block) {
 /// Rows in which the blocks look different: above them, their upper lines, their middle, and so on.
 std::vector<int> rows_of(const Scene& scene) {
   const auto log = make_collision_log(scene.system);
-  const DrawList list = Composition(scene, *log).frame({log->state_at(Rational(0))});
+  const DrawList list = Composition(scene, *log).frame({log->blocks_at(Rational(0))});
   std::set<int> rows;
   for (const ItemId block : {ItemId::red_block, ItemId::blue_block}) {
     const Rectangle bounds = bounds_of(list, block);
@@ -71,14 +71,14 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
   const auto log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const Composition composition(scene, *log);
-  const Integer count = log->state_at(schedule.time_of(frame)).count;
+  const Integer count = log->blocks_at(schedule.time_of(frame)).count;
   const std::vector<int> rows = rows_of(scene);
   MeanLight mean;
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   for (int i = 0; i < kInstants; ++i) {
     const Rational video_s =
         (frame + scene.view.shutter * Rational(2 * i + 1, 2 * kInstants)) / scene.view.frame_rate;
-    BlockState state = log->state_at(schedule.at(video_s).time);
+    BlockState state = log->blocks_at(schedule.at(video_s).time);
     state.count = count;
     canvas.update(composition.frame({state}));
     mean.add(samples_of(canvas.view(), rows));

@@ -25,9 +25,9 @@ class BodiesPacing : public BodiesFile {
   };
 
   /// Eleven collisions in a row that take the shortest time.
-  static Span densest_of(const Timeline& log) {
+  static Span densest_of(const Log& log) {
     Span found{0, 1'000'000};
-    for (Integer last = 11; last <= log.size(); ++last) {
+    for (Integer last = 11; last <= log.last(); ++last) {
       const Rational from = to_rational(log.collision_time(last - 10));
       const Rational to = to_rational(log.collision_time(last));
       if (to - from < found.to - found.from) found = {from, to};
@@ -45,16 +45,16 @@ class BodiesPacing : public BodiesFile {
 
   Schedule schedule(const std::string& text) {
     const Scene scene = load(text);
-    return make_schedule(scene, RunLog(scene).timeline());
+    return make_schedule(scene, *log_of(scene));
   }
 };
 
 TEST_F(BodiesPacing, SlowsDownTheDensestCollisionsUntilTheyCanBeToldApart) {
   const Scene scene = load(kSqueezed + "[time]\n" + kAutomatic);
-  const RunLog log(scene);
-  ASSERT_GT(log.timeline().size(), 100);
-  const Span densest = densest_of(log.timeline());
-  const Slowest slowest = slowest_of(make_schedule(scene, log.timeline()));
+  const auto log = log_of(scene);
+  ASSERT_GT(log->last(), 100);
+  const Span densest = densest_of(*log);
+  const Slowest slowest = slowest_of(make_schedule(scene, *log));
   EXPECT_LT(slowest.from, densest.from);
   EXPECT_GT(slowest.to, densest.to);
   const double in_a_second = to_double(10 / (densest.to - densest.from) / slowest.slowdown);

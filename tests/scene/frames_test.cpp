@@ -42,8 +42,8 @@ TEST(Frames, EndingWithTheLastCollisionShowsIt) {
     const auto log = make_collision_log(scene.system);
     const Schedule schedule = make_schedule(scene, *log);
     const std::int64_t last = film_frames(schedule) - 1;
-    EXPECT_EQ(log->state_at(schedule.time_of(last)).count, log->size());
-    EXPECT_LT(log->state_at(schedule.time_of(last - 1)).count, log->size());
+    EXPECT_EQ(log->blocks_at(schedule.time_of(last)).count, log->last());
+    EXPECT_LT(log->blocks_at(schedule.time_of(last - 1)).count, log->last());
   }
 }
 

@@ -54,13 +54,13 @@ struct Counts {
 
 Counts counts_at(const CollisionLog& log, const std::string& text, const char* hair = "1e-12") {
   const Rational time = time_of(parse_instant(text), log);
-  return {log.state_at(time - parse_rational(hair)).count, log.state_at(time).count};
+  return {log.blocks_at(time - parse_rational(hair)).count, log.blocks_at(time).count};
 }
 
 TEST(Instant, OfACollisionCountsExactlyThoseUntilIt) {
   for (int digits = 1; digits <= 40; ++digits) {
     const auto log = make_collision_log(article_system(digits));
-    const Integer total = log->size();
+    const Integer total = log->last();
     for (const Integer& index : {Integer(1), Integer(2), Integer(total / 3 + 1),
                                  Integer((total + 1) / 2), Integer(total - 1), total}) {
       const std::string text = "#" + index.get_str();
@@ -83,12 +83,12 @@ TEST(Instant, OfTheLastCollisionCountsAllOfThem) {
     system.red.position = 4 + random.rational(0, 5, 7);
     const auto log = make_collision_log(system);
     const Rational last = time_of(Instant::last(), *log);
-    ASSERT_EQ(log->state_at(last).count, log->size()) << system.red.mass;
-    const Integer index = 1 + (log->size() * random.integer(0, 1000)) / 1001;
+    ASSERT_EQ(log->blocks_at(last).count, log->last()) << system.red.mass;
+    const Integer index = 1 + (log->last() * random.integer(0, 1000)) / 1001;
     const Rational middle = time_of(Instant::collision(index), *log);
-    ASSERT_EQ(log->state_at(middle).count, index) << system.red.mass;
+    ASSERT_EQ(log->blocks_at(middle).count, index) << system.red.mass;
     // It is no later than a picture could show: the log's time is as good as a double can be.
-    EXPECT_NEAR(to_double(middle), log->collision(index).time.hi, 1e-13 * to_double(middle));
+    EXPECT_NEAR(to_double(middle), log->blocks_collision(index).time.hi, 1e-13 * to_double(middle));
   }
 }
 
@@ -103,9 +103,9 @@ TEST(Instant, OfAnEndlesslyLateCollisionIsFound) {
   BlockSystem system = article_system(1);
   system.red.mass = 1 + 1 / power(2, 300);
   const auto log = make_collision_log(system);
-  EXPECT_EQ(log->state_at(time_of(Instant::last(), *log)).count, 4);
+  EXPECT_EQ(log->blocks_at(time_of(Instant::last(), *log)).count, 4);
   const Rational just_before = time_of(Instant::last(), *log) * (1 - parse_rational("1e-20"));
-  EXPECT_EQ(log->state_at(just_before).count, 3);
+  EXPECT_EQ(log->blocks_at(just_before).count, 3);
 }
 
 TEST(Instant, KnowsCollisionsBeforeTimeZero) {
@@ -114,12 +114,12 @@ TEST(Instant, KnowsCollisionsBeforeTimeZero) {
     system.red.mass = parse_rational(ratio);
     system.red.velocity = 1;
     const auto log = make_collision_log(system);
-    EXPECT_EQ(log->size(), 0);
+    EXPECT_EQ(log->last(), 0);
     EXPECT_LT(log->first_index(), 0);
     for (Integer index = log->first_index(); index <= 0; ++index) {
-      EXPECT_EQ(log->state_at(time_of(Instant::collision(index), *log)).count, index) << ratio;
+      EXPECT_EQ(log->blocks_at(time_of(Instant::collision(index), *log)).count, index) << ratio;
     }
-    EXPECT_EQ(log->state_at(-1000).count, log->first_index() - 1);
+    EXPECT_EQ(log->blocks_at(-1000).count, log->first_index() - 1);
     EXPECT_FALSE(exists(Instant::collision(log->first_index() - 1), *log));
     EXPECT_FALSE(exists(Instant::last(), *log));
     EXPECT_THROW(time_of(Instant::collision(1), *log), UsageError);
@@ -131,11 +131,11 @@ TEST(Instant, OfACollisionAtTimeZeroIsTimeZero) {
   system.blue = {1, parse_rational("2.3"), Rational(1, 10), 1};
   system.red = {1000, parse_rational("3.3"), parse_rational("-0.7"), 1};
   const auto log = make_collision_log(system);
-  EXPECT_EQ(log->collision(1).time, Time{});
+  EXPECT_EQ(log->blocks_collision(1).time, Time{});
   EXPECT_EQ(time_of(Instant::collision(1), *log), 0);
-  EXPECT_EQ(log->state_at(0).count, 1);
+  EXPECT_EQ(log->blocks_at(0).count, 1);
   const auto batch = std::make_unique<CollisionBatch>();
-  log->stream(1, log->size())->read(*batch);
+  log->stream(1, log->last())->read(*batch);
   EXPECT_EQ(batch->time_hi[0], 0);
   EXPECT_EQ(batch->time_lo[0], 0);
 }
@@ -146,8 +146,8 @@ TEST(Instant, OfOneOfManyCollisionsAtOnceIsRefused) {
     system.blue.position = Rational(1, 2);  // at rest on the wall: all collisions happen at once
     system.red.mass = parse_rational(mass);
     const auto log = make_collision_log(system);
-    ASSERT_GT(log->size(), 1);
-    EXPECT_EQ(log->state_at(time_of(Instant::last(), *log)).count, log->size());
+    ASSERT_GT(log->last(), 1);
+    EXPECT_EQ(log->blocks_at(time_of(Instant::last(), *log)).count, log->last());
     EXPECT_THROW(time_of(Instant::collision(1), *log), UsageError);
   }
 }

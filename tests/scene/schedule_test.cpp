@@ -62,7 +62,7 @@ TEST(Schedule, MomentsAreMeasuredFromTurnAndLastCollision) {
   EXPECT_EQ(stretches[1].time, Rational(7, 2));
   EXPECT_EQ(stretches[1].speed, 0);
   EXPECT_EQ(stretches[2].video_s - stretches[1].video_s, 2);
-  EXPECT_EQ(stretches[3].time, log->time_after(log->size()) + Rational(1, 2));
+  EXPECT_EQ(stretches[3].time, log->time_after(log->last()) + Rational(1, 2));
 }
 
 TEST(Schedule, DurationIsMetToTheFrame) {
@@ -80,7 +80,7 @@ TEST(Schedule, DurationOfARunShownToItsEndEndsThere) {
   const Scene scene = paced_scene({{"time.to", "last+1"}, {"time.duration", "20"}});
   const auto log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
-  EXPECT_EQ(frame_time(schedule, schedule.frame_count() - 1), log->time_after(log->size()) + 1);
+  EXPECT_EQ(frame_time(schedule, schedule.frame_count() - 1), log->time_after(log->last()) + 1);
 }
 
 TEST(Schedule, DurationCountsWhatStands) {
@@ -182,8 +182,8 @@ TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
     const auto stretches = schedule.stretches();
     const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slowdown);
     const Rational turn_s = slowest->video_s + (turn - slowest->time) / slowest->speed;
-    const Integer in_a_second = log->state_at(schedule.at(turn_s + Rational(1, 2)).time).count -
-                                log->state_at(schedule.at(turn_s - Rational(1, 2)).time).count;
+    const Integer in_a_second = log->blocks_at(schedule.at(turn_s + Rational(1, 2)).time).count -
+                                log->blocks_at(schedule.at(turn_s - Rational(1, 2)).time).count;
     EXPECT_LE(in_a_second, 11) << digits;
     EXPECT_GE(in_a_second, 3) << digits;
   }

@@ -24,7 +24,7 @@ double sum(const std::vector<Clack>& clacks, CollisionKind kind) {
 
 void expect_all_collisions(const CollisionLog& log, const std::vector<Clack>& clacks) {
   for (const CollisionKind kind : {CollisionKind::wall, CollisionKind::blocks}) {
-    const auto all = impact(log, kind, 1, log.size());
+    const auto all = log.impact(kind, 1, log.last());
     const double expected = all ? all->impulse : 0;
     EXPECT_NEAR(sum(clacks, kind), expected, 1e-9 * expected);
   }
@@ -36,9 +36,9 @@ TEST(ClackStream, HasEachCollisionAtItsSample) {
     for (const char* speed : {"1", "1/20", "7/3"}) {
       const Rational s(speed);
       const std::vector<Clack> clacks = clacks_of(*log, {{0, 1, s}}, 12 / s);
-      ASSERT_EQ(clacks.size(), log->size().get_ui()) << digits << " digits at " << speed;
+      ASSERT_EQ(clacks.size(), log->last().get_ui()) << digits << " digits at " << speed;
       for (std::size_t i = 0; i < clacks.size(); ++i) {
-        const Collision c = log->collision(Integer(i + 1));
+        const Collision c = log->blocks_collision(Integer(i + 1));
         EXPECT_EQ(clacks[i].kind, c.kind);
         EXPECT_NEAR(clacks[i].sample, (c.time.hi - 1) / to_double(s) * kRate_hz, 1e-6);
         EXPECT_NEAR(clacks[i].position, c.blue.position, 1e-12);
@@ -59,10 +59,10 @@ TEST(ClackStream, FollowsEasesStepByStep) {
   ASSERT_GT(stretches.size(), 50U);
   const std::vector<Clack> clacks =
       clacks_of(*log, {stretches.begin(), stretches.end()}, Rational(schedule.frame_count()) / 60);
-  ASSERT_EQ(clacks.size(), log->state_at(7).count.get_ui());
+  ASSERT_EQ(clacks.size(), log->blocks_at(7).count.get_ui());
   for (std::size_t i = 0; i < clacks.size(); ++i) {
     const Rational seen = schedule.at(Rational(clacks[i].sample) / Rational(kRate_hz)).time;
-    EXPECT_NEAR(to_double(seen), log->collision(Integer(i + 1)).time.hi, 1e-10) << i + 1;
+    EXPECT_NEAR(to_double(seen), log->blocks_collision(Integer(i + 1)).time.hi, 1e-10) << i + 1;
   }
 }
 
@@ -81,7 +81,7 @@ TEST(ClackStream, BackwardsHasTheSameInReverseOrder) {
 
 TEST(ClackStream, IsSilentWhereTheFilmStandsStill) {
   const auto log = make_collision_log(article_system(2));
-  const Time seventh = log->collision(7).time;
+  const Time seventh = log->blocks_collision(7).time;
   const Rational stop = to_rational(seventh);  // the instant of a collision
   // Up to the collision, 2 s of standing, and on.
   const std::vector<Clack> clacks =
@@ -89,14 +89,14 @@ TEST(ClackStream, IsSilentWhereTheFilmStandsStill) {
   ASSERT_EQ(clacks.size(), 31u);
   expect_all_collisions(*log, clacks);
   for (std::size_t i = 0; i < clacks.size(); ++i) {
-    const double time = log->collision(Integer(i + 1)).time.hi;
+    const double time = log->blocks_collision(Integer(i + 1)).time.hi;
     const double wait = i < 6   ? 0
                         : i > 6 ? 2
                                 : std::round((clacks[i].sample / kRate_hz - time) / 2) * 2;
     EXPECT_NEAR(clacks[i].sample, (time + wait) * kRate_hz, 1e-6) << i;
   }
   // Heard before or after the stop, as the picture of the stop has counted it or not.
-  const bool is_counted = log->state_at(stop).count == 7;
+  const bool is_counted = log->blocks_at(stop).count == 7;
   EXPECT_EQ(clacks[6].sample < (seventh.hi + 1) * kRate_hz, is_counted);
 }
 
@@ -126,13 +126,13 @@ TEST(ClackStream, HearsWhatHappensInTheFirstFrame) {
   BlockSystem system = article_system(3);
   system.red.position = 3;  // touching, and moving in: the blocks meet at time 0
   const auto log = make_collision_log(system);
-  ASSERT_EQ(log->collision(1).time.hi, 0);
+  ASSERT_EQ(log->blocks_collision(1).time.hi, 0);
   const Rational half(1, 2);
   for (const std::vector<Stretch>& stretches : {std::vector<Stretch>{{0, 0, 1}},
                                                 {{0, 0, 0}, {2, 0, 1}},
                                                 {{0, 0, 0}, {1, 0, 0}, {2, 0, half}}}) {
     const std::vector<Clack> clacks = clacks_of(*log, stretches, 24);
-    ASSERT_EQ(clacks.size(), log->size().get_ui());
+    ASSERT_EQ(clacks.size(), log->last().get_ui());
     EXPECT_NEAR(clacks.front().sample, 0, 1e-9);
     EXPECT_GT(clacks[1].sample, to_double(stretches.back().video_s) * kRate_hz);
   }
@@ -140,7 +140,7 @@ TEST(ClackStream, HearsWhatHappensInTheFirstFrame) {
 
 TEST(ClackStream, HearsTheFirstInstantOnceWhicheverWayTheFilmGoesOn) {
   const auto log = make_collision_log(article_system(1));
-  ASSERT_EQ(log->collision(1).time.hi, 2);
+  ASSERT_EQ(log->blocks_collision(1).time.hi, 2);
   for (const int speed : {1, -1}) {
     const std::vector<Clack> clacks = clacks_of(*log, {{0, 2, 0}, {1, 2, speed}}, 2);
     ASSERT_EQ(clacks.size(), 1U) << speed;
@@ -175,15 +175,16 @@ TEST(ClackStream, HearsWhatWasBeforeTimeZero) {
 TEST(ClackStream, SlowsDownToCollisionsThatShareADouble) {
   // About 1e-21 s of the turn of 12 digits, a second of film.
   const auto log = make_collision_log(article_system(12));
-  const Integer index = log->size() / 3;
-  const Rational begin = to_rational(log->collision(index).time);
-  const Rational end = to_rational(log->collision(index + 5).time);
+  const Integer index = log->last() / 3;
+  const Rational begin = to_rational(log->blocks_collision(index).time);
+  const Rational end = to_rational(log->blocks_collision(index + 5).time);
   const Rational speed = end - begin;
   const std::vector<Clack> clacks =
       clacks_of(*log, {{0, begin - speed / 10, speed}}, Rational(6, 5));
   ASSERT_EQ(clacks.size(), 6u);
   for (std::size_t i = 0; i < clacks.size(); ++i) {
-    const Rational time = to_rational(log->collision(index + static_cast<unsigned long>(i)).time);
+    const Rational time =
+        to_rational(log->blocks_collision(index + static_cast<unsigned long>(i)).time);
     EXPECT_NEAR(clacks[i].sample, to_double((time - begin) / speed + Rational(1, 10)) * kRate_hz,
                 1);
   }

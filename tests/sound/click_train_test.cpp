@@ -35,7 +35,7 @@ TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
       together.add(clack.sample, clack.impulse);
     }
     ClickTrain all(size);
-    const auto stream = log->stream(1, log->size());
+    const auto stream = log->stream(1, log->last());
     CollisionBatch batch;
     const double r = to_double(1 / article_system(digits).red.mass);
     while (stream->read(batch)) {

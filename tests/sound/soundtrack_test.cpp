@@ -66,9 +66,9 @@ TEST(Soundtrack, BeginsEachClackAtItsCollision) {
     const Track track = track_of(scene, {{0, begin, speed}}, duration_s);
     int heard = 0;
     double quiet_since = 0;
-    for (Integer index = 1; index <= log->size(); ++index) {
+    for (Integer index = 1; index <= log->last(); ++index) {
       const double at =
-          (log->collision(index).time.hi - to_double(begin)) / to_double(speed) * kRate_hz;
+          (log->blocks_collision(index).time.hi - to_double(begin)) / to_double(speed) * kRate_hz;
       if (at < 0 || at + 100 > double(track.left.size())) continue;
       if (at - quiet_since > 400) {
         const auto window = std::size_t(at);

@@ -41,7 +41,7 @@ class HardCases : public testing::TestWithParam<HardCase> {};
 TEST_P(HardCases, HaveTheirTotal) {
   const BlockSystem system = GetParam().system();
   EXPECT_EQ(count_collisions(system), GetParam().total);
-  EXPECT_EQ(make_collision_log(system)->size(), GetParam().total);
+  EXPECT_EQ(make_collision_log(system)->last(), GetParam().total);
   EXPECT_EQ(oracle::high_precision_total(system), GetParam().total);
 }
 
@@ -49,17 +49,18 @@ TEST_P(HardCases, HaveAConsistentLog) {
   const BlockSystem system = GetParam().system();
   const auto log = make_collision_log(system);
   const Bounds bounds(system);
-  for (Integer k = 1; k <= log->size(); ++k) expect_consistent(system, *log, k, bounds);
+  for (Integer k = 1; k <= log->last(); ++k) expect_consistent(system, *log, k, bounds);
 }
 
 TEST_P(HardCases, AreWhereTheOracleSaysAtHardTimes) {
   const BlockSystem system = GetParam().system();
   const auto log = make_collision_log(system);
   const Bounds bounds(system);
-  const bool meets = log->size() > 0;
+  const bool meets = log->last() > 0;
   const Rational turn =
-      meets ? to_rational(log->collision((log->size() + 1) / 2).time) : Rational(1);
-  const Rational last = meets ? to_rational(log->collision(log->size()).time) + 1 : Rational(1);
+      meets ? to_rational(log->blocks_collision((log->last() + 1) / 2).time) : Rational(1);
+  const Rational last =
+      meets ? to_rational(log->blocks_collision(log->last()).time) + 1 : Rational(1);
   const Rational hair = parse_rational("1e-16");
   const std::vector<Rational> times = {
       0,           -last,       -1000 * last,      1000 * last,  turn,
@@ -71,12 +72,12 @@ TEST_P(HardCases, CountEveryCollisionAtItsExactTime) {
   const BlockSystem system = GetParam().system();
   const auto log = make_collision_log(system);
   const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
-  ASSERT_EQ(log->size(), run.size());
+  ASSERT_EQ(log->last(), run.size());
   for (std::size_t i = 0; i < run.size(); ++i) {
     const oracle::ExactState exact = oracle::exact_state(system, run, run[i].time);
-    const BlockState state = log->state_at(run[i].time);
+    const BlockState state = log->blocks_at(run[i].time);
     ASSERT_EQ(state.count, exact.count) << "at the time of collision " << i + 1;
-    EXPECT_EQ(log->collision(Integer(i + 1)).kind, run[i].kind);
+    EXPECT_EQ(log->blocks_collision(Integer(i + 1)).kind, run[i].kind);
   }
 }
 
@@ -123,16 +124,16 @@ TEST(HardNumbers, DenormalMassesAreTheDoublesTheyAre) {
   system.red.mass = Rational(5e-320);
   EXPECT_EQ(system.red.mass / system.blue.mass, 10120) << "neither is the decimal that was written";
   EXPECT_EQ(count_collisions(system), 316);
-  EXPECT_EQ(make_collision_log(system)->size(), 316);
+  EXPECT_EQ(make_collision_log(system)->last(), 316);
 }
 
 TEST(HardNumbers, TimesBeyondADoubleAreAnError) {
   BlockSystem system;
   system.red.velocity = -Rational(5e-324);  // meets blue after 4e323 units of time
   const auto log = make_collision_log(system);
-  EXPECT_EQ(log->size(), 314);
-  EXPECT_THROW(log->collision(1), SimulationError);
-  EXPECT_THROW(log->state_at(power(10, 400)), SimulationError);
+  EXPECT_EQ(log->last(), 314);
+  EXPECT_THROW(log->blocks_collision(1), SimulationError);
+  EXPECT_THROW(log->blocks_at(power(10, 400)), SimulationError);
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ void expect_momentum_kept(const BlockSystem& system, const CollisionLog& log, co
   Wide blue_before = to_double(system.blue.velocity);
   Wide red_before = to_double(system.red.velocity);
   if (now.index > 1) {
-    const Collision before = log.collision(now.index - 1);
+    const Collision before = log.blocks_collision(now.index - 1);
     blue_before = before.blue.velocity;
     red_before = before.red.velocity;
   }
@@ -134,7 +134,7 @@ void expect_momentum_kept(const BlockSystem& system, const CollisionLog& log, co
 
 void expect_state_of(const CollisionLog& log, const Collision& now, const Bounds& bounds) {
   const Rational time = to_rational(now.time);
-  const BlockState state = log.state_at(time);
+  const BlockState state = log.blocks_at(time);
   const BlockState after = state_after(log, now.index);
   EXPECT_EQ(after.blue.position, now.blue.position);
   EXPECT_EQ(after.red.velocity, now.red.velocity);
@@ -151,18 +151,18 @@ void expect_state_of(const CollisionLog& log, const Collision& now, const Bounds
 /// Collision `now` is followed by the next one, and states between them know.
 void expect_order(const CollisionLog& log, const Collision& now, const Bounds& bounds) {
   const Rational time = to_rational(now.time);
-  const Collision next = log.collision(now.index + 1);
+  const Collision next = log.blocks_collision(now.index + 1);
   const Rational next_time = to_rational(next.time);
   EXPECT_NE(now.kind, next.kind);
   const Rational doubt = bounds.time(time) + bounds.time(next_time);
   EXPECT_GE(next_time - time, -doubt);
   if (next_time - time <= doubt) return;  // two collisions that a rounded time cannot tell apart
-  EXPECT_EQ(log.state_at((time + next_time) / 2).count, now.index);
+  EXPECT_EQ(log.blocks_at((time + next_time) / 2).count, now.index);
 
-  if (now.index + 2 > log.size()) return;
-  const Rational later = to_rational(log.collision(now.index + 2).time);
+  if (now.index + 2 > log.last()) return;
+  const Rational later = to_rational(log.blocks_collision(now.index + 2).time);
   if (later - next_time <= bounds.time(next_time) + bounds.time(later)) return;
-  const Integer at_next = log.state_at(next_time).count;
+  const Integer at_next = log.blocks_at(next_time).count;
   EXPECT_TRUE(at_next == now.index || at_next == next.index) << at_next;
 }
 
@@ -171,7 +171,7 @@ void expect_order(const CollisionLog& log, const Collision& now, const Bounds& b
 void expect_consistent(const BlockSystem& system, const CollisionLog& log, const Integer& index,
                        const Bounds& bounds) {
   SCOPED_TRACE("collision " + index.get_str());
-  const Collision now = log.collision(index);
+  const Collision now = log.blocks_collision(index);
   const Rational time = to_rational(now.time);
   const BlockState just_after = state_after(log, index);
   EXPECT_EQ(now.index, index);
@@ -180,10 +180,10 @@ void expect_consistent(const BlockSystem& system, const CollisionLog& log, const
   expect_energy_kept(just_after, bounds);
   expect_momentum_kept(system, log, now, bounds);
   expect_state_of(log, now, bounds);
-  if (index < log.size()) {
+  if (index < log.last()) {
     expect_order(log, now, bounds);
   } else {
-    EXPECT_EQ(log.state_at(time + 2 * bounds.time(time)).count, index);
+    EXPECT_EQ(log.blocks_at(time + 2 * bounds.time(time)).count, index);
   }
 }
 
@@ -192,7 +192,7 @@ constexpr std::int64_t kOracle_bits = 1000;
 
 void expect_oracles_state(const BlockSystem& system, const CollisionLog& log, const Rational& time,
                           const Bounds& bounds) {
-  const BlockState state = log.state_at(time);
+  const BlockState state = log.blocks_at(time);
   const oracle::ExactState exact = oracle::high_precision_state(system, time, kOracle_bits);
   SCOPED_TRACE("t = " + time.get_str());
   EXPECT_EQ(state.count, exact.count);

@@ -37,9 +37,9 @@ std::vector<Rational> some_times(Random& random, const CollisionLog& log) {
   const auto scattered = [&] {
     return Rational(random.uniform(-1, 1) * std::pow(10.0, random.uniform(-8, 8)));
   };
-  if (log.size() == 0) return {0, scattered(), scattered()};
-  const Rational middle = to_rational(log.collision((log.size() + 1) / 2).time);
-  const Rational last = to_rational(log.collision(log.size()).time);
+  if (log.last() == 0) return {0, scattered(), scattered()};
+  const Rational middle = to_rational(log.blocks_collision((log.last() + 1) / 2).time);
+  const Rational last = to_rational(log.blocks_collision(log.last()).time);
   times.push_back(middle);
   times.push_back(middle + (last - middle) * scattered());
   times.push_back(last * scattered());
@@ -70,7 +70,7 @@ template <typename Check>
 void for_answers(const BlockSystem& system, const Check& check) {
   SCOPED_TRACE(describe(system));
   const auto log = make_collision_log(system);
-  EXPECT_EQ(log->size(), count_collisions(system));
+  EXPECT_EQ(log->last(), count_collisions(system));
   try {
     check(*log);
   } catch (const SimulationError& error) {
@@ -80,14 +80,14 @@ void for_answers(const BlockSystem& system, const Check& check) {
 
 void expect_invariants(Random& random, const BlockSystem& system, const CollisionLog& log) {
   const Bounds bounds(system);
-  for (const Integer& index : some_indices(random, log.size())) {
+  for (const Integer& index : some_indices(random, log.last())) {
     expect_consistent(system, log, index, bounds);
   }
   for (const Rational& time : some_times(random, log)) {
-    const BlockState state = log.state_at(time);
+    const BlockState state = log.blocks_at(time);
     expect_possible(system, state);
     expect_energy_kept(state, bounds);
-    EXPECT_LE(state.count, log.size());
+    EXPECT_LE(state.count, log.last());
     EXPECT_TRUE(time >= 0 ? state.count >= 0 : state.count <= 0) << state.count;
   }
 }
@@ -105,7 +105,7 @@ TEST(RandomSystems, HaveTheOraclesTotals) {
     SCOPED_TRACE(describe(system));
     const Integer total = oracle::high_precision_total(system);
     EXPECT_EQ(count_collisions(system), total);
-    EXPECT_EQ(make_collision_log(system)->size(), total);
+    EXPECT_EQ(make_collision_log(system)->last(), total);
   });
 }
 
@@ -150,8 +150,8 @@ TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
     }
     try {
       const auto log = make_collision_log(system, Engine::events);
-      for (const Integer& index : some_indices(random, log->size())) {
-        const Collision now = log->collision(index);
+      for (const Integer& index : some_indices(random, log->last())) {
+        const Collision now = log->blocks_collision(index);
         for (const double number : {now.time.hi, now.blue.position, now.blue.velocity,
                                     now.red.position, now.red.velocity}) {
           EXPECT_TRUE(std::isfinite(number));

@@ -36,16 +36,16 @@ Rational wild_restitution(Random& random) {
 
 /// The last collision, the first and those between, at the times that they are said to have.
 void expect_own_times(const CollisionLog& log) {
-  if (log.size() == 0) return;
+  if (log.last() == 0) return;
   for (int quarter = 0; quarter <= 4; ++quarter) {
-    const Integer index = 1 + (log.size() - 1) * quarter / 4;
+    const Integer index = 1 + (log.last() - 1) * quarter / 4;
     try {
       const Rational time = log.time_after(index);
-      EXPECT_EQ(log.state_at(time).count, index);
-      const Gaps gaps = gaps_at(log, time);
+      EXPECT_EQ(log.blocks_at(time).count, index);
+      const Gaps gaps = log.gaps_at(time);
       EXPECT_LE(0, gaps.y1);
       EXPECT_LE(gaps.y1, gaps.y2);
-      EXPECT_EQ(log.collision(index).index, index);
+      EXPECT_EQ(log.blocks_collision(index).index, index);
     } catch (const UsageError& error) {  // all at the same time
       EXPECT_NE(std::string(error.what()).find("at the same time"), std::string::npos);
     } catch (const SimulationError& error) {
@@ -69,7 +69,7 @@ TEST(RestitutionStress, NumbersOfAnySize) {
     expect_own_times(*log);
     EXPECT_EQ(is_endless(*log), collapse_of(system).has_value());
     if (is_endless(*log)) continue;
-    EXPECT_EQ(count_collisions(system), log->size());
+    EXPECT_EQ(count_collisions(system), log->last());
   }
 }
 

@@ -104,23 +104,23 @@ inline void expect_state(const CollisionLog& log, const Rational& time,
                          const oracle::InelasticRun& run) {
   SCOPED_TRACE("t = " + time.get_str().substr(0, 80));
   const std::size_t count = run.count_at(time);
-  const BlockSystem& system = log.system();
+  const BlockSystem& system = log.blocks();
   Block blue = count == 0 ? system.blue : run.events[count - 1].blue;
   Block red = count == 0 ? system.red : run.events[count - 1].red;
   const Rational since = count == 0 ? Rational(0) : run.events[count - 1].time;
   blue.position += blue.velocity * (time - since);
   red.position += red.velocity * (time - since);
-  const BlockState state = log.state_at(time);
+  const BlockState state = log.blocks_at(time);
   EXPECT_EQ(state.count, Integer(count));
   expect_rounded(state.blue.position, blue.position, "blue.position");
   expect_rounded(state.red.position, red.position, "red.position");
   expect_rounded(state.blue.velocity, blue.velocity, "blue.velocity");
   expect_rounded(state.red.velocity, red.velocity, "red.velocity");
-  const Gaps gaps = gaps_at(log, time);
+  const Gaps gaps = log.gaps_at(time);
   const Rational y1 = blue.position - blue.width / 2 - system.wall_face;
   expect_rounded(gaps.y1, y1, "y1");
   expect_rounded(gaps.y2, red.position - red.width / 2 - system.wall_face - blue.width, "y2");
-  const auto bounds = position_bounds(log, time);
+  const auto bounds = log.bounds_at(time);
   ASSERT_TRUE(bounds);
   EXPECT_LE(abs(Rational(state.blue.position) - blue.position), Rational(bounds->blue));
   EXPECT_LE(abs(Rational(state.red.position) - red.position), Rational(bounds->red));
@@ -131,16 +131,16 @@ inline void expect_collision(const CollisionLog& log, const oracle::InelasticRun
   const oracle::InelasticEvent& event = run.events[place];
   const Integer index = place + 1;
   SCOPED_TRACE("collision " + index.get_str());
-  const Collision collision = log.collision(index);
+  const Collision collision = log.blocks_collision(index);
   EXPECT_EQ(collision.kind, event.kind);
   EXPECT_LE(abs(to_rational(collision.time) - event.time), event.time * power(Rational(1, 2), 104));
   expect_rounded(collision.blue.position, event.blue.position, "blue.position");
   expect_rounded(collision.red.position, event.red.position, "red.position");
   expect_rounded(collision.blue.velocity, event.blue.velocity, "blue.velocity");
   expect_rounded(collision.red.velocity, event.red.velocity, "red.velocity");
-  const Gaps gaps = gaps_at_collision(log, index);
-  const Rational offset = log.system().wall_face + event.blue.width;
-  expect_rounded(gaps.y1, event.blue.position - log.system().wall_face - event.blue.width / 2,
+  const Gaps gaps = log.gaps_at_collision(index);
+  const Rational offset = log.blocks().wall_face + event.blue.width;
+  expect_rounded(gaps.y1, event.blue.position - log.blocks().wall_face - event.blue.width / 2,
                  "y1");
   expect_rounded(gaps.y2, event.red.position - event.red.width / 2 - offset, "y2");
   const bool has_next = place + 1 < run.events.size();
@@ -155,12 +155,12 @@ inline void expect_collision(const CollisionLog& log, const oracle::InelasticRun
     const Rational flight = run.events[place + 1].time - event.time;
     EXPECT_LE(after - event.time, flight * power(Rational(1, 2), 100));
   }
-  EXPECT_EQ(log.state_at(after).count, index);
+  EXPECT_EQ(log.blocks_at(after).count, index);
 }
 
 /// Impulses of all listed collisions of `run`, of both kinds, against their exact sums.
 inline void expect_impulses(const CollisionLog& log, const oracle::InelasticRun& run) {
-  const BlockSystem& s = log.system();
+  const BlockSystem& s = log.blocks();
   const Rational& m = s.blue.mass;
   const Rational unit = 2 * m * s.red.mass / (m + s.red.mass);
   const Rational speed_squared =
@@ -173,7 +173,7 @@ inline void expect_impulses(const CollisionLog& log, const oracle::InelasticRun&
       sum += event.impulse;
       moment += event.impulse * event.time;
     }
-    const auto all = impact(log, kind, 1, Integer(run.events.size()));
+    const auto all = log.impact(kind, 1, Integer(run.events.size()));
     ASSERT_EQ(all.has_value(), sum > 0);
     if (!all) continue;
     const double wanted = to_double(sum / unit) / std::sqrt(to_double(speed_squared));
@@ -218,10 +218,10 @@ inline void expect_like_steps(const BlockSystem& system, Random& random, std::si
   const auto collapse = collapse_of(system);
   if (run.ended) {
     EXPECT_FALSE(collapse);
-    EXPECT_EQ(log->size(), Integer(run.events.size()));
+    EXPECT_EQ(log->last(), Integer(run.events.size()));
     EXPECT_EQ(count_collisions(system), Integer(run.events.size()));
   } else {
-    EXPECT_GE(log->size(), collapse ? 1 : Integer(max_events));
+    EXPECT_GE(log->last(), collapse ? 1 : Integer(max_events));
     if (collapse) {
       EXPECT_THROW(count_collisions(system), UsageError);
       expect_collapse(system, run);
@@ -229,8 +229,8 @@ inline void expect_like_steps(const BlockSystem& system, Random& random, std::si
   }
   // The last collision that is listed stands for all that are not.
   const std::size_t listed =
-      log->size() > Integer(run.events.size()) ? run.events.size() : log->size().get_ui();
-  const std::size_t usable = collapse && listed == log->size() ? listed - 1 : listed;
+      log->last() > Integer(run.events.size()) ? run.events.size() : log->last().get_ui();
+  const std::size_t usable = collapse && listed == log->last() ? listed - 1 : listed;
   if (listed < run.events.size()) run.events.resize(usable + 1);
   for (std::size_t place = 0; place < usable; ++place) expect_collision(*log, run, place);
   const Rational end = run.events.empty() ? Rational(2) : run.events.back().time;

@@ -7,7 +7,7 @@
 namespace piblocks {
 
 inline BlockState state_after(const CollisionLog& log, const Integer& index) {
-  const Collision collision = log.collision(index);
+  const Collision collision = log.blocks_collision(index);
   return {index, collision.blue, collision.red};
 }
 

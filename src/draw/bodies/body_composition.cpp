@@ -13,6 +13,11 @@
 namespace piblocks {
 namespace {
 
+/// Until when what the film shows is certain; nothing if all of it is.
+std::optional<double> certain_until(const Scene& scene, const Log& log) {
+  return has_span(scene, log) ? log.certain_until(span_of(scene, log).to) : std::nullopt;
+}
+
 using MakePanel = Drawable (*)(const DrawingContext& context, const PanelPlace& place);
 
 /// problems_of() a scene has rejected all others.
@@ -26,7 +31,7 @@ MakePanel panel_of(Panel panel) {
 /// Places all that a scene with bodies shows, and makes its drawables in the order of their ids.
 class BodyComposer {
  public:
-  BodyComposer(const Scene& scene, const BodyLog& log, FrameNeeds& needs)
+  BodyComposer(const Scene& scene, const Log& log, FrameNeeds& needs)
       : palette_(palette_of(scene.view.theme)),
         sizes_(scene.view),
         context_{.scene = scene,
@@ -39,7 +44,7 @@ class BodyComposer {
                  .layout = layout_,
                  .sizes = sizes_,
                  .needs = needs,
-                 .certain_until = log.certain_until()},
+                 .certain_until = certain_until(scene, log)},
         read_outs_(context_),
         plan_(plan_frame(context_, room(), read_outs_.height())) {}
 
@@ -83,7 +88,7 @@ class BodyComposer {
 
 }  // namespace
 
-Composition::Composition(const Scene& scene, const BodyLog& log, std::shared_ptr<const Image> logo)
+Composition::Composition(const Scene& scene, const Log& log, std::shared_ptr<const Image> logo)
     : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}},
       drawables_(BodyComposer(scene, log, needs_).run(std::move(logo))) {}
 

@@ -67,7 +67,7 @@ class PositionsPanel {
   }
 
   /// The corners of each body's path while the scene is shown.
-  std::vector<std::vector<Corner>> paths_of(const BodyLog& log) const {
+  std::vector<std::vector<Corner>> paths_of(const Log& log) const {
     const Span& span = axis_.span();
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::ceil(axis_.plot().width)));
     const BodiesState first = log.state_at(span.from);
@@ -87,7 +87,7 @@ class PositionsPanel {
         add(time, log.state_at(time));
       }
     } else {
-      for (Integer k = first.count + 1; k <= last.count && k <= log.size(); ++k) {
+      for (Integer k = first.count + 1; k <= last.count; ++k) {
         const BodyCollision c = log.collision(k);
         for (const auto& [id, motion] :
              {std::pair(c.first, c.first_after), std::pair(c.second, c.second_after)}) {

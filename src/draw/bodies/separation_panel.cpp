@@ -38,16 +38,10 @@ struct Meeting {
   Parabola before;
 };
 
-/// The number of the first collision that is not before the time.
-Integer first_from(const BodyLog& log, const Rational& time) {
-  Integer first = log.count_at(time) + 1;
-  while (first > 1 && to_rational(log.collision(first - 1).time) >= time) --first;
-  return first;
-}
-
-Meeting first_meeting(const BodyLog& log, const Span& span) {
+Meeting first_meeting(const Log& log, const Span& span) {
   const std::size_t bodies = log.system().bodies.size();
-  for (Integer k = first_from(log, span.from); k <= log.size(); ++k) {
+  const Integer last = log.count_at(span.to);
+  for (Integer k = log.first_since(span.from); k <= last; ++k) {
     const BodyCollision c = log.collision(k);
     if (c.second >= bodies) continue;
     Meeting meeting{c.first, c.second, {c.time.hi, {}, {}}};
@@ -149,7 +143,7 @@ class SeparationPanel {
   }
 
   /// The distance as it is.
-  void add_path(const BodyLog& log) {
+  void add_path(const Log& log) {
     const double from = to_double(axis_.span().from);
     const double to = to_double(axis_.span().to);
     const auto add = [&](std::vector<Point> points) {

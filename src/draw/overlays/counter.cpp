@@ -52,6 +52,14 @@ std::string pi_line(const DrawingContext& context, std::size_t counted) {
   }
 }
 
+/// The last collision of the run; nothing if the film does not come that far.
+std::optional<Integer> last_shown(const Scene& scene, const Log& log) {
+  if (log.pair()) return log.last();
+  if (!has_span(scene, log)) return std::nullopt;
+  Integer last = log.count_at(span_of(scene, log).to);
+  return log.has(last + 1) ? std::nullopt : std::optional(std::move(last));
+}
+
 class Counter {
  public:
   Counter(const DrawingContext& context, const CounterPlace& place, std::string pi_count)
@@ -60,8 +68,7 @@ class Counter {
         palette_(context.palette),
         face_(context.font.face()),
         base_(context.scene.show.base),
-        last_(context.timeline.size()),
-        may_go_on_(context.timeline.may_go_on()),
+        last_(last_shown(context.scene, context.timeline)),
         is_endless_(is_endless(context.timeline)),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
@@ -73,7 +80,7 @@ class Counter {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const Integer& count = shown.state.count;
-    const bool is_over = count >= last_ && !may_go_on_;
+    const bool is_over = last_ && count >= *last_;
     const bool is_infinite = is_over && is_endless_;
     const std::string text = is_infinite ? std::string(kEndlessCount) : count_text(count, base_);
     // An instant outside of the film may have a longer count than any in it.
@@ -129,8 +136,7 @@ class Counter {
   Palette palette_;
   Face face_;
   int base_;
-  Integer last_;
-  bool may_go_on_;
+  std::optional<Integer> last_;  ///< of the run, if the film comes that far
   bool is_endless_;
   std::string pi_count_;
   std::string pi_;
@@ -153,9 +159,9 @@ std::string pi_count(const Scene& scene, const CollisionLog& log) {
         "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
         base * base));
   }
-  if (!counted_pi(scene.system, log.size(), base).empty()) return count_text(log.size(), base);
+  if (!counted_pi(scene.system, log.last(), base).empty()) return count_text(log.last(), base);
   if (!is_asked_for) return {};
-  const std::string counted = log.size().get_str(base);
+  const std::string counted = log.last().get_str(base);
   std::string digits = pi_digits(base, counted.size());
   std::erase(digits, '.');
   throw UsageError(fmt::format(
@@ -172,10 +178,13 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
   return length;
 }
 
-Integer longest_count(const Scene& scene, const Timeline& log) {
-  const Integer& last = log.size();
-  if (log.first_index() > 0 || !has_span(scene, log)) return last;
-  const Integer first = log.count_at(span_of(scene, log).from);
+Integer longest_count(const Scene& scene, const Log& log) {
+  // A still may show an instant that no film comes to.
+  if (!has_span(scene, log)) return log.pair() ? log.last() : to_integer(kMaxBodyCollisions);
+  const Span span = span_of(scene, log);
+  const Integer last = log.pair() ? log.last() : log.count_at(span.to);
+  if (log.first_index() > 0) return last;
+  const Integer first = log.count_at(span.from);
   const auto length = [&](const Integer& count) {
     return count_text(count, scene.show.base).size();
   };

@@ -21,7 +21,7 @@ std::string pi_count(const Scene& scene, const CollisionLog& log);
 std::size_t lit_length(std::string_view count, std::string_view expected);
 
 /// The longest count that the film shows. Counts before time 0 are negative and may be longer.
-Integer longest_count(const Scene& scene, const Timeline& log);
+Integer longest_count(const Scene& scene, const Log& log);
 
 /// What a plan must know of the counter.
 CounterRoom counter_room(const DrawingContext& context, const std::string& pi_count);

@@ -41,17 +41,17 @@ double least_gap(const DrawingContext& context, const std::optional<Span>& withi
   const Rational turn = turn_of(context.scene.system).value_or(0);
   try {
     double least = HUGE_VAL;
-    if (is_within(turn)) least = gaps_at(log, turn).y2;
+    if (is_within(turn)) least = log.gaps_at(turn).y2;
     // A light red is nearest at a collision beside the turn.
-    const Integer before = log.state_at(turn).count;
+    const Integer before = log.blocks_at(turn).count;
     for (const Integer& k : {before, Integer(before + 1)}) {
-      if (k < log.first_index() || k > log.size()) continue;
-      if (!is_within(to_rational(log.collision(k).time))) continue;
-      least = std::min(least, gaps_at_collision(log, k).y2);
+      if (k < log.first_index() || k > log.last()) continue;
+      if (!is_within(to_rational(log.blocks_collision(k).time))) continue;
+      least = std::min(least, log.gaps_at_collision(k).y2);
     }
     if (!within) return least;
     // Red comes nearer all the time up to then, and goes away all the time from then on.
-    return std::min({least, gaps_at(log, within->from).y2, gaps_at(log, within->to).y2});
+    return std::min({least, log.gaps_at(within->from).y2, log.gaps_at(within->to).y2});
   } catch (const SimulationError&) {  // beyond the range of a double
     return HUGE_VAL;
   }

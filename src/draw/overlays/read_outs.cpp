@@ -30,7 +30,7 @@ struct ReadOut {
 };
 
 /// Slow motion has more decimals, since less time passes from frame to frame.
-int time_decimals(const Scene& scene, const Timeline& log) {
+int time_decimals(const Scene& scene, const Log& log) {
   double least_speed = 1;  // simulation time per second of video
   if (has_span(scene, log)) {
     const Schedule schedule = make_schedule(scene, log);

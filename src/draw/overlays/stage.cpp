@@ -105,7 +105,7 @@ double reach_px(const Scene& scene, const CollisionLog& log) {
   const Span span = span_of(scene, log);
   // Red comes nearer and nearer, and then goes farther and farther away.
   const double farthest =
-      std::max(log.state_at(span.from).red.position, log.state_at(span.to).red.position);
+      std::max(log.blocks_at(span.from).red.position, log.blocks_at(span.to).red.position);
   const Axis axis(scene, whole(scene.view));
   const double right = farthest + to_double(scene.system.red.width) / 2;
   return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;

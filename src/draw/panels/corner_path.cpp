@@ -37,21 +37,21 @@ std::vector<Gaps> inside_of(const GapWindow& window, const std::vector<Gaps>& co
 }  // namespace
 
 CornerPath::CornerPath(const CollisionLog& log, const Span& span, int most_corners) {
-  const Integer before = log.state_at(span.from).count;
-  const Integer last = log.state_at(span.to).count;
-  const std::optional<Rational> turn = turn_of(log.system());
+  const Integer before = log.blocks_at(span.from).count;
+  const Integer last = log.blocks_at(span.to).count;
+  const std::optional<Rational> turn = turn_of(log.blocks());
   const Rational middle = std::clamp(turn.value_or(span.from), span.from, span.to);
-  const Integer at_turn = log.state_at(middle).count;
-  in_.push_back(gaps_at(log, span.from));
-  out_.push_back(gaps_at(log, span.to));
+  const Integer at_turn = log.blocks_at(middle).count;
+  in_.push_back(log.gaps_at(span.from));
+  out_.push_back(log.gaps_at(span.to));
   const Integer in_end = std::min(at_turn, Integer(before + most_corners));
   const Integer out_end = std::max(Integer(at_turn + 1), Integer(last + 1 - most_corners));
-  for (Integer k = before + 1; k <= in_end; k += 1) in_.push_back(gaps_at_collision(log, k));
-  for (Integer k = last; k >= out_end; k -= 1) out_.push_back(gaps_at_collision(log, k));
+  for (Integer k = before + 1; k <= in_end; k += 1) in_.push_back(log.gaps_at_collision(k));
+  for (Integer k = last; k >= out_end; k -= 1) out_.push_back(log.gaps_at_collision(k));
   is_complete_ = in_end == at_turn && out_end == at_turn + 1;
-  least_y2_ = std::min({gaps_at(log, middle).y2, in_.back().y2, out_.back().y2});
-  if (at_turn > before) least_y2_ = std::min(least_y2_, gaps_at_collision(log, at_turn).y2);
-  if (at_turn < last) least_y2_ = std::min(least_y2_, gaps_at_collision(log, at_turn + 1).y2);
+  least_y2_ = std::min({log.gaps_at(middle).y2, in_.back().y2, out_.back().y2});
+  if (at_turn > before) least_y2_ = std::min(least_y2_, log.gaps_at_collision(at_turn).y2);
+  if (at_turn < last) least_y2_ = std::min(least_y2_, log.gaps_at_collision(at_turn + 1).y2);
   for (const auto* side : {&in_, &out_}) {
     for (const Gaps& gaps : *side) greatest_y2_ = std::max(greatest_y2_, gaps.y2);
   }

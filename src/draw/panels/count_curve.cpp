@@ -18,7 +18,7 @@ constexpr long kNegligible = 1'000'000'000'000;
 constexpr long kMostExponent = 640;
 
 /// When the count reaches k, to 1/64 of the column. @param from, to  the column
-Rational time_of_step(const Timeline& log, const Integer& k, Rational from, Rational to) {
+Rational time_of_step(const Log& log, const Integer& k, Rational from, Rational to) {
   for (int i = 0; i < kHalvings; ++i) {
     const Rational middle = (from + to) / 2;
     (log.count_at(middle) >= k ? to : from) = middle;
@@ -28,7 +28,7 @@ Rational time_of_step(const Timeline& log, const Integer& k, Rational from, Rati
 
 }  // namespace
 
-std::vector<CountPoint> count_curve(const Timeline& log, const Span& span, int columns) {
+std::vector<CountPoint> count_curve(const Log& log, const Span& span, int columns) {
   const Rational length = span.to - span.from;
   std::vector<CountPoint> points;
   Integer count = log.count_at(span.from - length / kNegligible);
@@ -75,9 +75,9 @@ RoundFactor round_factor_below(const Rational& value) {
   return factor;
 }
 
-std::optional<EnlargedTurn> enlarged_turn(const Timeline& log, const InsetLimits& limits) {
+std::optional<EnlargedTurn> enlarged_turn(const Log& log, const InsetLimits& limits) {
   const Span& span = limits.span;
-  const std::optional<Rational> turn = log.turn();
+  const std::optional<Rational> turn = turn_of(log);
   if (!turn || *turn <= span.from || *turn >= span.to) return std::nullopt;
   const Rational half = (span.to - span.from) * limits.width_share / 2;
   EnlargedTurn part;

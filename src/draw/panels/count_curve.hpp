@@ -23,7 +23,7 @@ struct CountPoint {
 /// Collisions at the very beginning are a step at share 0.
 /// @param columns  >= 1
 /// @throws SimulationError as CollisionLog::state_at().
-std::vector<CountPoint> count_curve(const Timeline& log, const Span& span, int columns);
+std::vector<CountPoint> count_curve(const Log& log, const Span& span, int columns);
 
 /// A round factor, 1, 2 or 5 times a power of ten.
 struct RoundFactor {
@@ -58,6 +58,6 @@ struct InsetLimits {
 
 /// Nothing if there is no turn within the span, nothing to enlarge, or all collisions happen at
 /// once.
-std::optional<EnlargedTurn> enlarged_turn(const Timeline& log, const InsetLimits& limits);
+std::optional<EnlargedTurn> enlarged_turn(const Log& log, const InsetLimits& limits);
 
 }  // namespace piblocks

@@ -77,7 +77,7 @@ void CountInset::add_steps(const Diagram& diagram, const CollisionLog& log,
   for (std::size_t i = 1; i < points.size(); ++i) {
     Color color = palette.text;
     if (points[i].share == points[i - 1].share) {
-      const bool is_wall = log.collision(points[i].count).kind == CollisionKind::wall;
+      const bool is_wall = log.blocks_collision(points[i].count).kind == CollisionKind::wall;
       color = is_wall ? palette.blue.line : palette.red.line;
     }
     items.emplace_back(diagram.moving_line(0, {place_of(points[i - 1]), place_of(points[i])}, color,

@@ -43,12 +43,12 @@ Formula title_of_counts(const FormulaSetter& set, bool is_half) {
 
 /// Whether the turn is shown and parts the collisions, and as many come before it as after.
 struct TurnFacts {
-  TurnFacts(const Timeline& log, const Span& span) {
-    const std::optional<Rational> turn = log.turn();
-    if (!turn || log.size() < 2 || *turn <= span.from || *turn >= span.to) return;
+  TurnFacts(const Log& log, const Span& span) {
+    const std::optional<Rational> turn = turn_of(log);
+    if (!turn || log.last() < 2 || *turn <= span.from || *turn >= span.to) return;
     const Integer before = log.count_at(*turn);
     is_shown = true;
-    is_half = abs(Integer(2 * before - log.size())) <= 1;
+    is_half = abs(Integer(2 * before - log.last())) <= 1;
   }
   bool is_shown = false;
   bool is_half = false;
@@ -56,10 +56,10 @@ struct TurnFacts {
 
 std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFacts& turn) {
   const FormulaSetter set = context.setter();
-  const Timeline& log = context.timeline;
+  const Log& log = context.timeline;
   std::vector<Formula> wordings;
   // The curve ends at the last one of these that the log has.
-  if (is_endless(log) && log.count_at(span_of(context.scene, log).to) == log.size()) {
+  if (is_endless(log) && log.count_at(span_of(context.scene, log).to) == log.last()) {
     return {set.text("Infinitely many collisions"), set.text("Collisions")};
   }
   if (turn.is_shown) wordings.push_back(title_of_counts(set, turn.is_half));
@@ -225,7 +225,7 @@ class CountPanel {
 
   void add_inset(const DrawingContext& context, std::vector<DrawItem>& items) {
     if (!turn_.is_shown || context.blocks == nullptr) return;
-    const double turn_x = axis_.x_of(to_double(*context.timeline.turn()));
+    const double turn_x = axis_.x_of(to_double(*turn_of(context.timeline)));
     const Rectangle frame = inset_frame(turn_x);
     if (frame.width == 0) return;
     const Rectangle& plot = axis_.plot();

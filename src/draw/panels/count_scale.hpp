@@ -15,7 +15,7 @@ namespace piblocks {
 
 /// The axis of counts, beside that of time.
 struct CountScale {
-  CountScale(const Timeline& log, const Span& span, int count_base)
+  CountScale(const Log& log, const Span& span, int count_base)
       : base(count_base),
         low(std::min(Integer(0), log.count_at(span.from))),
         high(std::max(Integer(low + 1), log.count_at(span.to))) {}

@@ -41,8 +41,8 @@ std::vector<Point> corners_of(const Rectangle& box) {
 
 bool shows_a_turn(const DrawingContext& context) {
   const Span span = span_of(context.scene, context.log());
-  const BlockState first = context.log().state_at(span.from);
-  const BlockState last = context.log().state_at(span.to);
+  const BlockState first = context.log().blocks_at(span.from);
+  const BlockState last = context.log().blocks_at(span.to);
   return first.red.velocity < 0 && last.red.velocity > 0 && last.count - first.count >= 3;
 }
 

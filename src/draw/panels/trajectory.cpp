@@ -24,7 +24,7 @@ void add_corners(const Column& column, const CollisionLog& log, const GapWedge& 
   if (pieces.empty() || pieces.back().corners.empty()) pieces.push_back({{column.from}, {}});
   std::vector<TimedGaps>& corners = pieces.back().corners;
   for (Integer k = column.first; k <= column.last; k += 1) {
-    const Collision collision = log.collision(k);
+    const Collision collision = log.blocks_collision(k);
     corners.push_back({collision.time.hi, gaps_at(collision, wedge)});
   }
   corners.push_back(column.to);
@@ -38,7 +38,7 @@ void add_band(const Column& column, const CollisionLog& log, const GapWedge& wed
   // farthest from the wall at the first contact or at the last one.
   for (const Integer& k :
        {column.first, Integer(column.first + 1), Integer(column.last - 1), column.last}) {
-    band.high = std::max(band.high, gaps_at(log.collision(k), wedge).y1);
+    band.high = std::max(band.high, gaps_at(log.blocks_collision(k), wedge).y1);
   }
   pieces.back().bands.push_back(band);
 }
@@ -48,11 +48,11 @@ void add_band(const Column& column, const CollisionLog& log, const GapWedge& wed
 std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const GapWedge& wedge,
                                            const Span& span, int columns) {
   std::vector<TrajectoryPiece> pieces;
-  BlockState state = log.state_at(span.from);
+  BlockState state = log.blocks_at(span.from);
   TimedGaps from{to_double(span.from), wedge.gaps_of(state)};
   for (int i = 1; i <= columns; ++i) {
     const Rational time = span.from + (span.to - span.from) * i / columns;
-    const BlockState next = log.state_at(time);
+    const BlockState next = log.blocks_at(time);
     const TimedGaps to{to_double(time), wedge.gaps_of(next)};
     const bool is_dense = next.count - state.count > kMostCorners;
     const auto add = is_dense ? add_band : add_corners;

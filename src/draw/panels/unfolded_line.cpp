@@ -85,11 +85,11 @@ void UnfoldedMap::place_corner(const CollisionLog& log) {
   double from = line_.at(span_.from);
   double to = line_.at(span_.to);
   if (line_.moves() && !line_.meets_corner()) {
-    const Integer first = log.state_at(span_.from).count + 1;
-    const Integer last = log.state_at(span_.to).count;
+    const Integer first = log.blocks_at(span_.from).count + 1;
+    const Integer last = log.blocks_at(span_.to).count;
     if (first <= last) {
       const auto distance = [&](const Integer& index) {
-        return std::abs(line_.at(time_of(log, log.collision(index))));
+        return std::abs(line_.at(time_of(log, log.blocks_collision(index))));
       };
       const double reach = kWidest * std::max(distance(first), distance(last));
       from = std::clamp(from, -reach, reach);
@@ -127,7 +127,7 @@ std::vector<Point> UnfoldedMap::sector(const Point& a, const Point& b) const {
 }
 
 Mirror UnfoldedMap::mirror_of(const CollisionLog& log, const Integer& index) const {
-  const Collision collision = log.collision(index);
+  const Collision collision = log.blocks_collision(index);
   const Rational time = time_of(log, collision);
   const double x = x_at(time);
   return {.index = index,
@@ -148,8 +148,8 @@ std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_a
   if (!line_.moves() || line_.meets_corner()) return evenly_spaced_mirrors();
   const double reach = std::copysign(reach_px(least_apart_px), line_.velocity());
   if (!(std::abs(reach) > 0)) return {};
-  const Integer first = log.state_at(line_.time_at(-reach / scale_)).count + 1;
-  const Integer last = log.state_at(line_.time_at(reach / scale_)).count;
+  const Integer first = log.blocks_at(line_.time_at(-reach / scale_)).count + 1;
+  const Integer last = log.blocks_at(line_.time_at(reach / scale_)).count;
   const bool is_thinned = last - first >= kMostMirrors;
   std::vector<Mirror> mirrors;
   for (Integer index = first; index <= last;) {
@@ -160,7 +160,7 @@ std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_a
       const double step = least_apart_px * std::max(1.0, x * x / (area_.width * level_px_));
       const double target =
           std::clamp(x + std::copysign(step, reach), -std::abs(reach), std::abs(reach));
-      next = std::max(next, Integer(log.state_at(line_.time_at(target / scale_)).count + 1));
+      next = std::max(next, Integer(log.blocks_at(line_.time_at(target / scale_)).count + 1));
       // Both kinds take turns.
       if (Integer(next - index) % 2 == 0) next += 1;
     }

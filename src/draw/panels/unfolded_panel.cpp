@@ -56,7 +56,7 @@ class UnfoldedPanel {
         map_(context.scene, context.log(), plot(), 2 * kPresentRadius * grid_px_),
         mirrors_(map_.mirrors(context.log(), kBetweenMirrors * grid_px_)),
         span_(span_of(context.scene, context.log())),
-        size_(context.log().size()),
+        size_(context.log().last()),
         least_x_(map_.left() + kPresentRadius * grid_px_),
         most_x_(map_.right() - kPresentRadius * grid_px_),
         from_x_(std::clamp(map_.x_at(span_.from), map_.left(), map_.right())) {

@@ -20,8 +20,8 @@ bool divides_pi(const Rational& ratio) {
 
 /// Collisions from the beginning of the scene on.
 Integer crossings_of(const DrawingContext& context) {
-  const Integer before = context.log().state_at(span_of(context.scene, context.log()).from).count;
-  return context.log().size() - (before < 0 ? before : Integer(0));
+  const Integer before = context.log().blocks_at(span_of(context.scene, context.log()).from).count;
+  return context.log().last() - (before < 0 ? before : Integer(0));
 }
 
 /// The wedge angle in radians: as a unit fraction where that is good to three digits.

@@ -10,7 +10,7 @@
 namespace piblocks {
 
 VelocityPoints::VelocityPoints(const Scene& scene, const CollisionLog& log)
-    : wedge_angle_(GapWedge(scene.system).theta), last_(log.size()) {
+    : wedge_angle_(GapWedge(scene.system).theta), last_(log.last()) {
   const BlockSystem& system = scene.system;
   const Rational energy = twice_energy(system);
   if (energy == 0) return;
@@ -21,13 +21,13 @@ VelocityPoints::VelocityPoints(const Scene& scene, const CollisionLog& log)
   if (log.first_index() < 1 && has_span(scene, log)) {
     const Rational from = span_of(scene, log).from;
     if (from < 0) {
-      const BlockState state = log.state_at(from);
+      const BlockState state = log.blocks_at(from);
       before_ = std::min<Integer>(state.count, 0);
       start = point_of(state.blue.velocity, state.red.velocity);
     }
   }
   start_angle_ = rounded::atan2(start.y, start.x);
-  if (before_ < last_) first_ = log.collision(before_ + 1).kind;
+  if (before_ < last_) first_ = log.blocks_collision(before_ + 1).kind;
 }
 
 std::vector<double> VelocityPoints::all_angles() const {

@@ -67,7 +67,7 @@ class Stepper final : public DiscStepper {
   void plan_end_of_margin(std::uint32_t disc);
   bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
   bool propose(std::uint32_t disc, const Plan& proposal);
-  static std::uint64_t rank_of(std::uint32_t disc, const Plan& plan);
+  std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
   bool is_stale(const Plan& plan) const;
   void enqueue(std::uint32_t disc);
   void cross(std::uint32_t disc);
@@ -169,11 +169,13 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
   return true;
 }
 
-/// The order of simultaneous events: doubts, then pairs in their order.
-std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) {
+/// The order of simultaneous events: doubts, then pairs as TieRank says, in one number.
+std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
   if (plan.is_doubt) return 0;
-  const auto [first, second] = std::minmax(disc, plan.partner);
-  return (std::uint64_t{first} << 32) | second;
+  const bool is_partner_movable = is_disc(plan.partner) && system_.is_movable(plan.partner);
+  const TieRank rank = TieRank::of(disc, true, plan.partner, is_partner_movable);
+  return (std::uint64_t{rank.has_immovable} << 63) | (std::uint64_t{rank.first} << 32) |
+         rank.second;
 }
 
 bool Stepper::is_stale(const Plan& plan) const {

@@ -4,6 +4,8 @@
 // finds the same number.
 #pragma once
 
+#include <piblocks/contact.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -50,31 +52,25 @@ inline double gap_to(const WallLine& wall, const Disc& disc, double time) {
 
 inline double meeting_time(const Disc& disc, const WallLine& wall) {
   const double closing_speed = -dot(wall.normal, disc.velocity);
-  if (!(closing_speed > 0)) return kNever;
-  const double gap = gap_to(wall, disc, disc.time);
-  return gap <= 0 ? disc.time : disc.time + gap / closing_speed;
+  return disc.time + time_to_contact(gap_to(wall, disc, disc.time), closing_speed).value_or(kNever);
 }
 
-/// other / (own + other): the share of the velocity change for the disc with mass `own`.
-inline double share_of_change(double own, double other) {
-  return other == kNever ? 1 : other / (own + other);
-}
-
-/// Velocities after an elastic collision: only what is along the line of centres changes (Landau &
-/// Lifshitz, Mechanics, section 17). Nothing happens if rounding has made the discs recede.
+/// Velocities after an elastic collision. Nothing happens if rounding has made the discs recede.
 inline void collide(Disc& a, double mass_a, Disc& b, double mass_b) {
   const Vector apart = b.position - a.position;
   const Vector normal = (1 / length(apart)) * apart;
   const double closing_speed = dot(a.velocity - b.velocity, normal);
   if (!(closing_speed > 0)) return;
-  const double change = 2 * closing_speed;
-  a.velocity = a.velocity - (change * share_of_change(mass_a, mass_b)) * normal;
-  b.velocity = b.velocity + (change * share_of_change(mass_b, mass_a)) * normal;
+  const double share_a = share_of_change(mass_a, mass_b);
+  const double share_b = share_of_change(mass_b, mass_a);
+  a.velocity = a.velocity - velocity_change(closing_speed, share_a) * normal;
+  b.velocity = b.velocity + velocity_change(closing_speed, share_b) * normal;
 }
 
 inline void reflect(Disc& disc, const WallLine& wall) {
   const double closing_speed = -dot(wall.normal, disc.velocity);
-  if (closing_speed > 0) disc.velocity = disc.velocity + (2 * closing_speed) * wall.normal;
+  if (!(closing_speed > 0)) return;
+  disc.velocity = disc.velocity + velocity_change(closing_speed, 1.0) * wall.normal;
 }
 
 }  // namespace piblocks::discs

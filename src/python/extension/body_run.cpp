@@ -34,18 +34,17 @@ class BoundBodyRun {
     for (const char* option : {"--engine", "--bounds"}) {
       if (options.is_given(option)) require_blocks(scene_, option);
     }
-    Scene computed = for_states ? scene_ : cli::scene_for_log(scene_, options);
-    computed.time.allow_uncertain |= for_states;
-    run_ = std::make_unique<RunLog>(computed);
+    if (!for_states) scene_ = cli::scene_for_log(scene_, options);
+    log_ = log_of(scene_);
   }
   const Scene& scene() const { return scene_; }
-  const BodyLog& log() const { return *run_->bodies(); }
+  const Log& log() const { return *log_; }
   std::size_t bodies() const { return log().system().bodies.size(); }
   std::size_t dimensions() const { return std::size_t(log().system().dimensions); }
 
  private:
   Scene scene_;
-  std::unique_ptr<RunLog> run_;
+  std::unique_ptr<Log> log_;
 };
 
 py::tuple select(const BoundBodyRun& run, const Options& options) {
@@ -53,6 +52,7 @@ py::tuple select(const BoundBodyRun& run, const Options& options) {
   {
     const WithoutGil released;
     rows = cli::select_rows(BoundOptions(options), run.log());
+    require_certain_until(run.scene(), run.log(), rows.last);
   }
   return py::make_tuple(hexadecimal(rows.first), hexadecimal(rows.count()));
 }
@@ -129,7 +129,7 @@ void bind_body_run(py::module_& module) {
       .def(py::init<const BoundScript&, const Options&, bool>(), py::arg("script"),
            py::arg("options"), py::arg("for_states"), "Computed up to '--to'.")
       .def_property_readonly(
-          "size", [](const BoundBodyRun& run) { return hexadecimal(run.log().size()); },
+          "size", [](const BoundBodyRun& run) { return hexadecimal(run.log().last()); },
           "Collisions from time 0 on, in hexadecimal digits.")
       .def_property_readonly(
           "first_index",

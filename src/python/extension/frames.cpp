@@ -67,7 +67,7 @@ class Pictures {
       return film().frame(frame_at(film(), instant));
     }
     const FilmRun& one = run();
-    return one.still(piblocks::time_of(instant, one.timeline()));
+    return one.still(piblocks::time_of(instant, one.log()));
   }
   const Film& film() {
     const std::scoped_lock lock(mutex_);
@@ -80,7 +80,7 @@ class Pictures {
     if (!run_) {
       const Scene& scene = std::get<Scene>(script_->script);
       require_valid(problems_of(scene));
-      run_ = std::make_unique<const FilmRun>(scene, RunLog(scene), FilmUse::pictures);
+      run_ = std::make_unique<const FilmRun>(scene, log_of(scene), FilmUse::pictures);
     }
     return *run_;
   }

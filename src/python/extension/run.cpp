@@ -95,7 +95,7 @@ struct FoundState {
 };
 
 FoundState state_at(const CollisionLog& log, const Rational& time, bool has_bounds) {
-  const BlockState state = log.state_at(time);
+  const BlockState state = log.blocks_at(time);
   FoundState found;
   found.row.state = {shown(to_double(time)),     state.count.get_si(),
                      shown(state.blue.position), shown(state.red.position),
@@ -172,7 +172,7 @@ void bind_run(py::module_& module) {
       .def(py::init<const BoundScript&, const std::map<std::string, std::string>&>(),
            py::arg("script"), py::arg("options"), "By the engine that '--engine' names.")
       .def_property_readonly(
-          "size", [](const BoundRun& run) { return hexadecimal(run.log().size()); },
+          "size", [](const BoundRun& run) { return hexadecimal(run.log().last()); },
           "Collisions from time 0 on, in hexadecimal digits.")
       .def_property_readonly(
           "first_index", [](const BoundRun& run) { return hexadecimal(run.log().first_index()); },

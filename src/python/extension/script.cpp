@@ -71,8 +71,11 @@ std::vector<std::string> key_names() {
 std::string count_of(const BoundScript& bound) {
   const WithoutGil released;
   const Scene& scene = scene_of(bound, "count");
-  return hexadecimal(scene.bodies ? RunLog(scene).timeline().size()
-                                  : count_collisions(scene.system));
+  if (!scene.bodies) return hexadecimal(count_collisions(scene.system));
+  const std::unique_ptr<Log> log = log_of(scene);
+  const Integer count = log->last();
+  require_certain_until(scene, *log, count);
+  return hexadecimal(count);
 }
 
 std::vector<std::string> notes_of(const BoundScript& bound) {

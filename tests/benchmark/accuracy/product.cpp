@@ -19,7 +19,7 @@ class Product final : public Method {
   WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     const auto log = make_collision_log(system);
-    const auto stream = log->stream(1, log->size());
+    const auto stream = log->stream(1, log->last());
     LogWriter<double> writer(wanted, deadline);
     const auto batch = std::make_unique<CollisionBatch>();
     const auto rows = [&](const CollisionBatch::Column& column) {
@@ -37,7 +37,7 @@ class Product final : public Method {
     const auto log = make_collision_log(system);
     std::vector<LoggedEvent> events;
     for (const std::int64_t k : wanted) {
-      const Collision collision = log->collision(k);
+      const Collision collision = log->blocks_collision(k);
       events.push_back({k, collision.time.hi, collision.blue.position, collision.red.position});
     }
     return events;
@@ -47,8 +47,8 @@ class Product final : public Method {
                   const Deadline&) const override {
     const auto log = make_collision_log(system);
     std::vector<double> blue;
-    blue.reserve(instants.exact.size());
-    for (const Rational& time : instants.exact) blue.push_back(log->state_at(time).blue.position);
+    blue.reserve(instants.exact.last());
+    for (const Rational& time : instants.exact) blue.push_back(log->blocks_at(time).blue.position);
     return blue;
   }
 

@@ -36,7 +36,7 @@ class WholeLogOfDigits : public testing::TestWithParam<int> {};
 TEST_P(WholeLogOfDigits, HasEveryTimeToFourTimesTenToTheMinusSixteenOfItself) {
   const BlockSystem system = article_system(GetParam());
   const auto log = make_collision_log(system);
-  const auto stream = log->stream(1, log->size());
+  const auto stream = log->stream(1, log->last());
   const auto batch = std::make_unique<CollisionBatch>();
   const OneSided<Decimal50> formula(system);
   Worst worst;

@@ -90,7 +90,7 @@ Contestant contestant(std::string method, std::string number, Ask ask) {
 
 /// Its time is that of a log alone.
 inline std::vector<double> no_positions(const BodySystem& system, const Rational& until) {
-  static_cast<void>(make_body_log(system, until));
+  static_cast<void>(make_log(system, until));
   return {};
 }
 

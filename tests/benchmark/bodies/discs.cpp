@@ -42,7 +42,7 @@ BodySystem between_large_discs() {
 
 std::vector<double> disc_positions(const BodySystem& system,
                                    const std::vector<Rational>& instants) {
-  const std::unique_ptr<BodyLog> log = make_body_log(system, instants.back());
+  const std::unique_ptr<Log> log = make_log(system, instants.back());
   std::vector<double> positions;
   for (const Rational& time : instants) {
     const BodiesState state = log->state_at(time);
@@ -169,7 +169,7 @@ std::vector<Contestant> disc_contestants(const BodySystem& system,
                                          const std::vector<double>& instants) {
   const std::vector<Rational> exact(instants.begin(), instants.end());
   std::vector<Contestant> all = {
-      contestant("piblocks::BodyLog", "double", [=] { return disc_positions(system, exact); })};
+      contestant("piblocks::Log", "double", [=] { return disc_positions(system, exact); })};
   all.push_back(contestant("the same without states", "double",
                            [=] { return no_positions(system, exact.back()); }));
   const auto add = [&]<typename Number>(Number) {
@@ -189,7 +189,7 @@ std::vector<Contestant> disc_contestants(const BodySystem& system,
 
 double end_of_certainty(const BodySystem& system) {
   for (Rational until = 1;; until *= 2) {
-    const std::unique_ptr<BodyLog> log = make_body_log(system, until);
+    const std::unique_ptr<Log> log = make_log(system, until);
     if (const std::optional<double> end = log->certain_until()) return *end;
   }
 }

@@ -24,7 +24,7 @@ BodySystem three_blocks() {
 
 std::vector<double> line_positions(const BodySystem& system,
                                    const std::vector<Rational>& instants) {
-  const std::unique_ptr<BodyLog> log = make_body_log(system, instants.back());
+  const std::unique_ptr<Log> log = make_log(system, instants.back());
   std::vector<double> positions;
   for (const Rational& time : instants) {
     for (const BodyMotion& body : log->state_at(time).bodies) {
@@ -114,7 +114,7 @@ Answers right_line_positions(const BodySystem& system, const std::vector<double>
 std::vector<Contestant> line_contestants(const BodySystem& system,
                                          const std::vector<double>& instants) {
   const std::vector<Rational> exact(instants.begin(), instants.end());
-  std::vector<Contestant> all = {contestant("piblocks::BodyLog", "rational, then double",
+  std::vector<Contestant> all = {contestant("piblocks::Log", "rational, then double",
                                             [=] { return line_positions(system, exact); }),
                                  contestant("the same without states", "rational, then double",
                                             [=] { return no_positions(system, exact.back()); })};
@@ -150,16 +150,16 @@ LineColumn line_column(const BodySystem& system, int collisions) {
 
 void print_line_certainty(const BodySystem& system) {
   constexpr std::int64_t kEnough = 500'000;
+  const std::unique_ptr<Log> log = make_log(system);
+  std::int64_t exact = 0;
+  while (log->is_exact(to_integer(exact + 1))) ++exact;
+  fmt::print("\nThe log computes {} collisions exactly. ", readable(to_integer(exact)));
   for (Rational until = 1000;; until *= 4) {
-    const std::unique_ptr<BodyLog> log = make_body_log(system, until);
-    const std::optional<double> end = log->certain_until();
-    if (!end && log->size() < kEnough) continue;
-    fmt::print("\nBodyLog computes {} collisions exactly. ", readable(log->exact_size()));
-    if (end) {
-      fmt::print("It is certain until collision {}.\n\n", readable(log->count_at(Rational(*end))));
-    } else {
-      fmt::print("It is certain for {} collisions or more.\n\n", readable(log->size()));
-    }
+    const std::optional<double> end = log->certain_until(until);
+    const Integer count = log->count_at(end ? Rational(*end) : until);
+    if (!end && count < kEnough) continue;
+    fmt::print("It is certain {} {}.\n\n", end ? "until collision" : "at least until collision",
+               readable(count));
     return;
   }
 }

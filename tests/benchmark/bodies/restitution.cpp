@@ -59,7 +59,7 @@ std::vector<Number> inelastic_loop_times(const BlockSystem& system) {
 
 std::vector<Time> inelastic_log_times(const BlockSystem& system) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(system);
-  const std::unique_ptr<CollisionStream> stream = log->stream(1, log->size());
+  const std::unique_ptr<CollisionStream> stream = log->stream(1, log->last());
   const auto batch = std::make_unique<CollisionBatch>();
   std::vector<Time> times;
   while (stream->read(*batch)) {
@@ -80,7 +80,7 @@ Answers right_inelastic_times(const BlockSystem& system) {
   Answers right = inelastic_loop_times<Wide>(system);
   constexpr std::size_t kExact = 100;
   const auto exact = oracle::inelastic_run(system, kExact).events;
-  for (std::size_t i = 0; i < exact.size(); ++i) {
+  for (std::size_t i = 0; i < exact.last(); ++i) {
     if (i < right.size() && relative_error(right[i], to_wide(exact[i].time)) < 1e-100) continue;
     throw SimulationError(
         fmt::format("restitution: collision {} in 400 bits is not that in rational numbers: either "

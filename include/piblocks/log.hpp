@@ -1,0 +1,150 @@
+// The log: all collisions of bodies, by index and by time.
+// In: a system. Out: collisions, states and ways; up to when they are certain. A question computes
+// as far as it asks and no further.
+#pragma once
+
+#include <piblocks/bodies.hpp>
+#include <piblocks/exact.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace piblocks {
+
+/// The centre and the velocity of a body at one instant.
+struct BodyMotion {
+  std::array<double, 2> position = {};
+  std::array<double, 2> velocity = {};
+  bool operator==(const BodyMotion&) const = default;
+};
+
+/// Two bodies, or a body and a wall, just after they have met.
+struct BodyCollision {
+  Integer index;  ///< as Log counts
+  Time time = {};
+  std::uint32_t first = 0;   ///< place of a body in BodySystem::bodies
+  std::uint32_t second = 0;  ///< of another, > first; or bodies.size() and the place of a wall
+  BodyMotion first_after = {};
+  BodyMotion second_after = {};  ///< of a wall: where it is, and no velocity
+};
+
+/// A place on a body's way.
+struct PathPoint {
+  double after = 0;  ///< simulation time since the way began
+  std::array<double, 2> position = {};
+};
+
+/// All bodies at one instant.
+struct BodiesState {
+  Integer count;  ///< index of the last collision until then
+  std::vector<BodyMotion> bodies;
+};
+
+/// On a line, collisions are computed in rational numbers while none of these has more bits, and
+/// there are no more collisions; from then on in double precision.
+inline constexpr std::size_t kMaxExactBits = 4096;
+inline constexpr std::int64_t kMaxExactCollisions = 100'000;
+
+/// Most collisions that are stored, at 160 bytes each.
+inline constexpr std::int64_t kMaxBodyCollisions = 2'000'000;
+
+class CollisionLog;
+struct Impact;  // physics/impact.hpp
+enum class CollisionKind : std::uint8_t;
+
+/// Collisions from time 0 on have the indices 1, 2, … Of two blocks beside something immovable
+/// those before time 0 are known, too, and have the indices 0, -1, … down to first_index(). Several
+/// collisions at one instant happen in the order of TieRank (contact.hpp).
+///
+/// No answer depends on earlier questions. Const members are thread-safe.
+class Log {
+ public:
+  virtual ~Log() = default;
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  const BodySystem& system() const noexcept { return system_; }
+
+  /// Index of the first collision of all time; 1 if there are none before time 0.
+  virtual Integer first_index() const { return 1; }
+  /// Whether the run has a collision with this index. Computes all collisions until then.
+  virtual bool has(const Integer& index) const = 0;
+  /// Index of the last collision of the run, and the number of those from time 0 on. Computes all.
+  /// Of a run that may never end it is the last one until the horizon.
+  /// @throws UsageError if the run may never end and there is no horizon; SimulationError if there
+  ///         are more than kMaxBodyCollisions.
+  virtual Integer last() const = 0;
+  /// Whether collisions may go on for ever: may_never_end(system()).
+  virtual bool never_ends() const { return false; }
+  /// Whether last() has an answer: the run ends, or there is a horizon.
+  virtual bool has_last() const { return true; }
+  /// The collision with this index, if has(index).
+  /// @throws SimulationError if its time or state is beyond the range of a double.
+  virtual BodyCollision collision(const Integer& index) const = 0;
+  /// When it happens, to two doubles. @throws as collision()
+  virtual Time collision_time(const Integer& index) const { return collision(index).time; }
+  /// A time at which exactly the collisions up to this one have happened: that of the collision if
+  /// its exact value is short, otherwise one so little later that no picture can show the
+  /// difference.
+  /// @throws UsageError if the next collision happens at the same time.
+  /// @throws SimulationError if a stepping engine cannot tell the two times apart.
+  virtual Rational time_after(const Integer& index) const = 0;
+
+  /// The bodies at a time. A collision exactly at `time` has happened.
+  /// @throws UsageError if the time is negative, unless the past is known; SimulationError if there
+  ///         are more than kMaxBodyCollisions until then.
+  virtual BodiesState state_at(const Rational& time) const = 0;
+  /// Index of the last collision until then; 0 for times before 0 whose past is not known.
+  virtual Integer count_at(const Rational& time) const = 0;
+  /// The first collision at this time or later; the one after the last if there is none.
+  virtual Integer first_since(const Rational& time) const;
+  /// The way of each body between two times, from <= to: its centre at both, and at each of its
+  /// collisions between. Of a body with more than `most` collisions there are `most` >= 2 points:
+  /// both ends, and one at an irregular time in each of equal parts of the time between.
+  /// @throws as state_at().
+  virtual std::vector<std::vector<PathPoint>> paths(const Rational& from, const Rational& to,
+                                                    std::size_t most) const = 0;
+
+  /// Whether the collision is computed in rational numbers, so that each of its numbers is the
+  /// nearest double to the true one. In closed form it is if the outer block is not the heavier
+  /// one; else numbers are some units in the last place off.
+  virtual bool is_exact(const Integer& index) const = 0;
+  /// The first collision up to this index of a body that is about to meet another one at the same
+  /// time, so that the order of ties decides what comes next; nothing if none is, among those
+  /// computed in rational numbers.
+  virtual std::optional<Integer> first_tie(const Integer& last) const = 0;
+  /// Until when, up to this time, rounding cannot have changed which bodies collide, nor in which
+  /// order each of them meets the others. Nothing if it cannot at all until then.
+  virtual std::optional<double> certain_until(const Rational& time) const = 0;
+
+  /// As count_at(), except that collisions within the rounding of `time` and of the engine may
+  /// count as earlier or later. Of two blocks the cost does not depend on their number.
+  virtual Integer count_near(const Time& time) const { return count_at(to_rational(time)); }
+  /// The collisions of this kind among first … last, taken together, for sound; nothing if there
+  /// are none. What meets something immovable has met a wall.
+  virtual std::optional<Impact> impact(CollisionKind kind, const Integer& first,
+                                       const Integer& last) const;
+
+  /// What two blocks beside something immovable have; nullptr for all others.
+  virtual const CollisionLog* pair() const noexcept { return nullptr; }
+
+ protected:
+  explicit Log(BodySystem system) : system_(std::move(system)) {}
+
+ private:
+  BodySystem system_;
+};
+
+/// Two blocks and one wall or immovable block beside them are in closed form. All others are
+/// stepped and stored. Nothing is stepped yet.
+/// @param horizon  the time until which collisions count where they may never end
+/// @throws SceneError if problems_of(system) is not empty; UsageError if the horizon is negative.
+std::unique_ptr<Log> make_log(const BodySystem& system,
+                              const std::optional<Rational>& horizon = {});
+
+}  // namespace piblocks

@@ -1,0 +1,106 @@
+// A log computes as far as it is asked for, and its answers do not depend on what was asked before.
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/log.hpp>
+
+#include <string>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Blocks on a line or discs on a grid, open or enclosed, with immovable ones among them.
+BodySystem random_system(Random& random) {
+  BodySystem system;
+  system.dimensions = int(random.integer(1, 2));
+  const bool is_plane = system.dimensions == 2;
+  const auto count = random.integer(2, 6);
+  for (std::int64_t i = 0; i < count; ++i) {
+    Body body{.mass = random.rational(1, 9, 7), .position = {Rational(3 * i)}};
+    if (is_plane) body.position = {Rational(3 * (i % 3)), Rational(3 * (i / 3))};
+    body.velocity[0] = random.rational(-3, 3, 7);
+    if (is_plane) body.velocity[1] = random.rational(-3, 3, 7);
+    if (i > 0 && random.integer(0, 4) == 0) body = {std::nullopt, body.position, {}, body.size};
+    system.bodies.push_back(body);
+  }
+  if (random.integer(0, 1) == 1) system.walls.push_back({"left", {-2}, {1}});
+  if (random.integer(0, 1) == 1) system.walls.push_back({"right", {20}, {-1}});
+  if (is_plane && random.integer(0, 2) == 0) {
+    system.walls.push_back({"lower", {0, -2}, {0, 1}});
+    system.walls.push_back({"upper", {0, 5}, {0, -1}});
+  }
+  return system;
+}
+
+void expect_same_collision(const BodyCollision& a, const BodyCollision& b) {
+  EXPECT_EQ(a.index, b.index);
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.first, b.first);
+  EXPECT_EQ(a.second, b.second);
+  EXPECT_EQ(a.first_after, b.first_after);
+  EXPECT_EQ(a.second_after, b.second_after);
+}
+
+TEST(LazyLog, AnswersAreThoseOfALongerRun) {
+  int unending = 0;
+  for (std::uint64_t i = 0; i < std::uint64_t(many(300)); ++i) {
+    Random random(7'000 + i);
+    SCOPED_TRACE(random.trace() + ", system " + std::to_string(i));
+    const BodySystem system = random_system(random);
+    const Rational until = random.rational(0, 12, 5);
+    const auto whole = make_log(system, until + 10);
+    whole->state_at(until + 10);
+    unending += whole->never_ends() ? 1 : 0;
+
+    const Integer count = whole->count_at(until);
+    EXPECT_EQ(make_log(system)->count_at(until), count);
+    const BodiesState state = make_log(system)->state_at(until);
+    EXPECT_EQ(state.count, count);
+    EXPECT_EQ(state.bodies, whole->state_at(until).bodies);
+    if (count < 1) continue;
+    const Integer index = 1 + Integer(long(random.integer(0, 1000))) % count;
+    expect_same_collision(make_log(system)->collision(index), whole->collision(index));
+    EXPECT_EQ(make_log(system)->first_since(whole->time_after(count)),
+              whole->first_since(whole->time_after(count)));
+    EXPECT_EQ(make_log(system)->certain_until(until), whole->certain_until(until));
+    EXPECT_EQ(make_log(system)->first_tie(count), whole->first_tie(count));
+  }
+  EXPECT_GT(unending, many(60));
+}
+
+/// Between two blocks of 10^40 times its mass a light one bounces 10^20 times, but not before
+/// time 3.
+TEST(LazyLog, DoesNotAskWhatHappensLater) {
+  BodySystem system;
+  system.bodies = {
+      {1, {2}, {}, 1}, {power(100, 7), {5}, {-1}, 1}, {power(100, 20), {Rational(-1, 2)}, {}, 1}};
+  const auto log = make_log(system);
+  EXPECT_EQ(log->count_at(1), 0);
+  EXPECT_TRUE(log->has(3));
+  EXPECT_EQ(log->collision(1).time.hi, 2);
+  EXPECT_THROW(log->last(), SimulationError);
+  EXPECT_EQ(log->count_at(1), 0) << "also after a question that has no answer";
+}
+
+TEST(LazyLog, OnlyTheLastCollisionOfWhatMayNeverEndNeedsAHorizon) {
+  const Body fixed{std::nullopt, {}, {}, 1};
+  BodySystem discs{2, {fixed, fixed, {1, {5, 0}, {1, Rational(1, 100)}, 1}}, {}, 1, 1};
+  discs.bodies[1].position = {10, 0};
+  for (BodySystem system : {discs, BodySystem{1, {{1, {5}, {1}, 1}}, {}, 1, 1}}) {
+    if (system.dimensions == 1) system.walls = {{"left", {0}, {1}}, {"right", {10}, {-1}}};
+    const auto log = make_log(system);
+    EXPECT_TRUE(log->never_ends());
+    EXPECT_FALSE(log->has_last());
+    EXPECT_THROW(log->last(), UsageError);
+    EXPECT_EQ(make_log(system, 30)->last(), log->count_at(30));
+    EXPECT_GT(log->count_at(30), 0);
+  }
+  discs.bodies.erase(discs.bodies.begin());
+  EXPECT_FALSE(make_log(discs)->never_ends());
+  EXPECT_EQ(make_log(discs)->last(), 1);
+}
+
+}  // namespace
+}  // namespace piblocks
