@@ -152,11 +152,13 @@ struct MovingShape {
   bool operator==(const MovingShape&) const = default;
 };
 
-/// Any shapes, exposed: the mean, in linear light, of their pictures at moments that follow each
-/// other at equal times. A vector file shows the instant.
+/// Any shapes, exposed: the mean, in linear light, of their pictures at some moments. A vector file
+/// shows the instant.
 struct MovingShapesItem {
   ItemId id = ItemId::red_block;
-  std::vector<MovingShape> shapes;  ///< from back to front, with equally many places; none overlap
+  std::vector<double> shares;       ///< of the exposure, for which each moment stands
+  std::vector<MovingShape> shapes;  ///< from back to front, with a place for each moment; they
+                                    ///< never overlap
   bool operator==(const MovingShapesItem&) const = default;
 };
 

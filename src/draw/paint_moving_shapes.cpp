@@ -19,6 +19,7 @@ using Rgb = std::array<double, 3>;
 /// the pixels of the whole.
 using LightSum = std::array<std::int64_t, 3>;
 constexpr double kLightUnit = 1 << 30;
+constexpr double kWeightUnit = 1 << 24;
 
 Rgb samples_of(const Color& color) {
   return {double(color.red), double(color.green), double(color.blue)};
@@ -201,7 +202,12 @@ class MomentSums {
     }
   }
 
-  void next_moment() { ++moment_; }
+  /// What is added from now on is seen for a share of the exposure.
+  void next_moment(double share) {
+    ++moment_;
+    weight_ = std::llround(share * kWeightUnit);
+    weights_ += weight_;
+  }
 
   template <typename Shape>
   void add(const Shape& shape, const Point& place) {
@@ -230,8 +236,8 @@ class MomentSums {
   struct PixelSum {
     LightSum edges{};               ///< what edges add to the light, which may be negative
     LightSum solid{};               ///< light of the runs that begin here, less of those that end
-    std::int32_t solid_begins = 0;  ///< and the number of these
-    std::int32_t moment = 0;        ///< the last in which an edge was here
+    std::int64_t solid_weight = 0;  ///< of these runs
+    std::int64_t moment = 0;        ///< the last in which an edge was here
     Rgb samples{};                  ///< of that moment
     LightSum light{};               ///< of these
   };
@@ -241,7 +247,7 @@ class MomentSums {
     std::int64_t covered = 0;
     for (int x = area_.x_px; x < area_.x_px + area_.width_px; ++x) {
       const PixelSum& pixel = at(x, y);
-      covered += pixel.solid_begins;
+      covered += pixel.solid_weight;
       for (std::size_t i = 0; i < 3; ++i) solid[i] += pixel.solid[i];
       if (covered > 0 || pixel.moment > 0) set_mean(pixel, solid, covered, *pixels_.at(x, y));
     }
@@ -264,10 +270,10 @@ class MomentSums {
   void add_solid(int y, const Run& run, const Rgb& samples) {
     PixelSum& begin = at(run.begin, y);
     PixelSum& end = at(run.end, y);
-    ++begin.solid_begins;
-    --end.solid_begins;
+    begin.solid_weight += weight_;
+    end.solid_weight -= weight_;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t light = whole_light(samples[i]);
+      const std::int64_t light = weight_ * whole_light(samples[i]);
       begin.solid[i] += light;
       end.solid[i] -= light;
     }
@@ -286,7 +292,7 @@ class MomentSums {
     pixel.samples = over(pixel.samples);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t light = whole_light(pixel.samples[i]);
-      pixel.edges[i] += light - pixel.light[i];
+      pixel.edges[i] += weight_ * (light - pixel.light[i]);
       pixel.light[i] = light;
     }
   }
@@ -296,8 +302,8 @@ class MomentSums {
     const LightSum background = lights_of(word);
     std::uint32_t mean = word & 0xFF000000U;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t sum = pixel.edges[i] + solid[i] + (moment_ - covered) * background[i];
-      const double light = double(sum) / (double(moment_) * kLightUnit);
+      const std::int64_t sum = pixel.edges[i] + solid[i] + (weights_ - covered) * background[i];
+      const double light = double(sum) / (double(weights_) * kLightUnit);
       mean |= std::uint32_t{light_.sample(light)} << (16 - 8 * i);
     }
     word = mean;
@@ -310,7 +316,9 @@ class MomentSums {
   std::size_t stride_;
   std::vector<PixelSum> sums_;  // one more a row, where runs may end
   std::vector<bool> repeats_;   // of each row, whether it is as the one above
-  std::int32_t moment_ = 0;     // from 1 on
+  std::int64_t moment_ = 0;     // from 1 on
+  std::int64_t weight_ = 0;     // of this moment
+  std::int64_t weights_ = 0;    // of all until now
 };
 
 std::vector<Mover> movers_in(const MovingShapesItem& item, const PixelRect& area) {
@@ -340,9 +348,9 @@ void Painter::paint_exposed(cairo_t& cr, const MovingShapesItem& item, const Pix
   for (int y = moving.y_px; y < moving.y_px + moving.height_px; y += kBand_px) {
     const int height = std::min(kBand_px, moving.y_px + moving.height_px - y);
     MomentSums sums({moving.x_px, y, moving.width_px, height}, light(), pixels, movers);
-    for (std::size_t moment = 0; moment < movers.front().places.size(); ++moment) {
+    for (std::size_t moment = 0; moment < item.shares.size(); ++moment) {
       check_stop();
-      sums.next_moment();
+      sums.next_moment(item.shares[moment]);
       for (const auto& [shape, places] : movers) {
         std::visit([&](const auto& any) { sums.add(any, places[moment]); }, shape);
       }

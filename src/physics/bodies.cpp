@@ -117,7 +117,7 @@ class OverlapSweep {
     }
     std::ranges::stable_sort(events, [](const Event& a, const Event& b) {
       const int order = cmp(a.x, b.x);
-      return order < 0 || (order == 0 && a.begins < b.begins);
+      return order < 0 || (order == 0 && !a.begins && b.begins);
     });
     return events;
   }

@@ -134,8 +134,9 @@ inline ExposedBlocksItem any_exposed(Random& random, ItemId id, int width, int h
 
 /// Blocks and discs of all sizes, which may overlap, along straight ways.
 inline MovingShapesItem any_moving_shapes(Random& random, ItemId id, int width, int height) {
-  MovingShapesItem item{id, {}};
   const auto moments = random.integer(1, 30);
+  MovingShapesItem item{
+      id, std::vector<double>(static_cast<std::size_t>(moments), 1 / double(moments)), {}};
   for (std::int64_t i = random.integer(1, 4); i > 0; --i) {
     MovingShape moving;
     if (random.integer(0, 1) == 0) {

@@ -153,7 +153,7 @@ TEST(Sheet, ShowsWhatMovesSharpAtAnyScale) {
                         width_px / 2,
                         Color{0, 0, 0},
                         {ExposedBlocksItem{ItemId::red_block, block(1), dwelling, {}},
-                         MovingShapesItem{ItemId::blue_block, {{block(7), places}}}}};
+                         MovingShapesItem{ItemId::blue_block, {0.5, 0.5}, {{block(7), places}}}}};
     const DrawList page = arrange({{list, "a"}}, 400, 300);
     const Image image = draw_pixels(page);
     const Rectangle place = places_on(page).front();

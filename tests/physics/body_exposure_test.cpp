@@ -112,8 +112,8 @@ TEST(BodyExposure, OfTheClosedFormIsThatOfTheBlocks) {
     EXPECT_EQ(exposure.closed->red, 2U);
     EXPECT_EQ(exposure.closed->sign, sign);
     ASSERT_TRUE(exposure.closed->blocks.area_below);
-    EXPECT_NEAR(exposure.closed->blocks.red_range.to, sign * log->state_at(3).bodies[2].position[0],
-                1e-9);
+    const auto red_at = [&](int time) { return sign * log->state_at(time).bodies[2].position[0]; };
+    EXPECT_NEAR(exposure.closed->blocks.red_range.to, std::max(red_at(3), red_at(5)), 1e-9);
     const auto paths = log->paths(3, 5, 10);
     EXPECT_EQ(paths[0].size(), 2U);
     EXPECT_EQ(paths[1].size(), 10U);

@@ -37,21 +37,15 @@ void each_piece(Exposures exposures, std::size_t body, const Visit& visit) {
   }
 }
 
-/// How a body moves, in pixels.
-struct Way {
-  double length_px = 0;
-  std::size_t pieces = 0;
-};
-
-Way way_of(Exposures exposures, std::size_t body, const BodyMap& map) {
-  Way way;
+/// How far a body moves, in pixels.
+double way_of(Exposures exposures, std::size_t body, const BodyMap& map) {
+  double way = 0;
   each_piece(exposures, body, [&](double, double, const BodyPiece& piece) {
     const double x = piece.to[0] - piece.from[0];
     const double y = piece.to[1] - piece.from[1];
-    way.length_px += std::sqrt(x * x + y * y) * map.scale;
-    ++way.pieces;
+    way += std::sqrt(x * x + y * y);
   });
-  return way;
+  return way * map.scale;
 }
 
 /// Of the edges of a body, where each pixel is computed by itself.
@@ -66,16 +60,49 @@ double edges_px(const StillBody& body, const PixelRect& frame) {
   return std::min(2 * block.bounds.height, most) * (block.stroke.width_px + kFade_px);
 }
 
-/// Shares of the exposure that have passed: one in each of equal parts. If bodies bounce they
-/// follow no rhythm, so that they do not fall in step.
-std::vector<double> moments(double wanted, std::size_t most_pieces) {
+/// What the mean is taken of.
+struct Moments {
+  std::vector<double> times;   ///< shares of the exposure that have passed
+  std::vector<double> shares;  ///< for which they stand
+
+  void add(double time, double share) {
+    times.push_back(time);
+    shares.push_back(share);
+  }
+};
+
+/// When bodies change their velocity, and both ends of the exposure.
+std::vector<double> turns_of(Exposures exposures, const std::vector<std::size_t>& movers) {
+  std::vector<double> turns{0, 1};
+  for (const std::size_t body : movers) {
+    each_piece(exposures, body, [&](double begin, double, const BodyPiece&) {
+      if (begin > 0 && begin < 1) turns.push_back(begin);
+    });
+  }
+  std::ranges::sort(turns);
+  turns.erase(std::ranges::unique(turns).begin(), turns.end());
+  return turns;
+}
+
+/// In the middle of equal parts of each time between two turns; if there are more turns than
+/// moments, of the whole. Where a body bounces often, they follow no rhythm to fall in step with.
+Moments moments_for(std::size_t count, const std::vector<double>& turns, std::size_t most_pieces) {
   constexpr double kGolden = 0.6180339887498949;
-  const auto count = static_cast<std::size_t>(wanted);
-  const bool are_even = 4 * most_pieces < count;
-  std::vector<double> moments;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double turns = kGolden * double(i);
-    moments.push_back((double(i) + (are_even ? 0.5 : turns - std::floor(turns))) / double(count));
+  Moments moments;
+  if (turns.size() > count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double irrational = kGolden * double(i) - std::floor(kGolden * double(i));
+      const double within = 4 * most_pieces < count ? 0.5 : irrational;
+      moments.add((double(i) + within) / double(count), 1 / double(count));
+    }
+    return moments;
+  }
+  for (std::size_t turn = 1; turn < turns.size(); ++turn) {
+    const double length = turns[turn] - turns[turn - 1];
+    const double parts = std::ceil(length * double(count));
+    for (double part = 0; part < parts; ++part) {
+      moments.add(turns[turn - 1] + length * (part + 0.5) / parts, length / parts);
+    }
   }
   return moments;
 }
@@ -160,25 +187,28 @@ void add_exposed(const std::vector<StillBody>& bodies, const BodyMap& map, const
   std::size_t most_pieces = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (is_closed && exposures.front().exposure.closed->has(i)) continue;
-    const Way way = is_closed ? Way{} : way_of(exposures, i, map);
-    if (!(way.length_px > kStill_px)) {
+    const double way_px = is_closed ? 0 : way_of(exposures, i, map);
+    if (!(way_px > kStill_px)) {
       add_still(nth(ItemId::red_block, i), bodies[i], items);
       continue;
     }
     movers.push_back(i);
-    longest_px = std::max(longest_px, way.length_px);
+    longest_px = std::max(longest_px, way_px);
     edges += edges_px(bodies[i], frame);
-    most_pieces = std::max(most_pieces, way.pieces);
+    std::size_t pieces = 0;
+    for (const auto& weighted : exposures) pieces += weighted.exposure.pieces[i].size();
+    most_pieces = std::max(most_pieces, pieces);
   }
   if (is_closed) items.emplace_back(closed_blocks_item(bodies, map, frame.width_px, exposures));
   if (movers.empty()) return;
   const double most = std::min(kMostEdges_px / edges, kMostPlaces / double(movers.size()));
   const double count = std::min({kLeastMoments + longest_px, kMostMoments, most});
-  const std::vector<double> shares = moments(std::max(count, kFewMoments), most_pieces);
-  MovingShapesItem moving{nth(ItemId::red_block, kExposed), {}};
+  Moments moments = moments_for(static_cast<std::size_t>(std::max(count, kFewMoments)),
+                                turns_of(exposures, movers), most_pieces);
+  MovingShapesItem moving{nth(ItemId::red_block, kExposed), std::move(moments.shares), {}};
   for (const std::size_t i : movers) {
     moving.shapes.push_back(
-        {bodies[i], places_of(exposures, i, map, corner_of(bodies[i]), shares)});
+        {bodies[i], places_of(exposures, i, map, corner_of(bodies[i]), moments.times)});
   }
   items.emplace_back(std::move(moving));
 }
