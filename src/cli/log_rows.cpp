@@ -88,6 +88,8 @@ Integer last_row(const OptionTexts& options, const Log& log, const std::optional
   if (!limit) return to ? log.count_at(to->time) : log.last();
   const Integer last = first + *limit - 1;
   if (to) return std::min(last, log.count_at(to->time));
+  // The horizon of a run that may never end is near, the end of another one may be far.
+  if (log.never_ends() && log.has_last()) return std::min(last, log.last());
   return log.has(last) ? last : log.last();
 }
 
