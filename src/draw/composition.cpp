@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/bodies/body_stage.hpp"
 #include "draw/extent.hpp"
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
@@ -40,37 +41,40 @@ bool is_finite(const BodyMotion& motion) {
          std::ranges::all_of(motion.velocity, is_number);
 }
 
-bool is_finite(const Motion& motion) {
-  return std::isfinite(motion.position) && std::isfinite(motion.velocity);
-}
-
 /// Places all that a scene shows, and makes its drawables in the order of their ids.
 class Composer {
  public:
-  Composer(const Scene& scene, const CollisionLog& log, FrameNeeds& needs)
+  Composer(const Scene& scene, const SceneLog& log, FrameNeeds& needs)
       : scene_(scene),
-        is_article_(scene.view.theme == Theme::article),
-        palette_(palette_of(scene.view.theme, scene.system)),
+        is_article_(log.two_blocks() != nullptr && scene.view.theme == Theme::article),
+        bodies_(bodies_of(scene)),
+        palette_(log.two_blocks() != nullptr ? palette_of(scene.view.theme, scene.system)
+                                             : palette_of(scene.view.theme)),
         sizes_(scene.view),
         context_{.scene = scene,
-                 .timeline = log,
-                 .blocks = &log,
-                 .bodies = nullptr,
+                 .bodies = bodies_,
+                 .log = log,
                  .palette = palette_,
                  .fonts = fonts_,
                  .font = fonts_.of(text_face_of(scene.view.theme)),
                  .layout = layout_,
                  .sizes = sizes_,
                  .needs = needs},
-        pi_(pi_count(scene, log)),
+        pi_(pi_count(context_)),
         read_outs_(context_),
         plan_(plan_frame(context_, counter_room_beside_read_outs(), read_outs_.height())) {}
 
   std::vector<Drawable> run(std::shared_ptr<const Image> logo) {
-    layout_ = lay_out();
+    const bool has_blocks = context_.log.two_blocks() != nullptr;
+    if (has_blocks) layout_ = lay_out();
     loupe_ = LoupeInset::make(context_, plan_);
-    add_stage();
-    add_overlays();
+    if (has_blocks) {
+      add_stage();
+      add_overlays();
+    } else {
+      drawables_.push_back(body_stage(context_, plan_.stage));
+      drawables_.push_back(counter(context_, plan_.counter, pi_));
+    }
     add_read_outs();
     add_loupe();
     add_lines(std::move(logo));
@@ -90,8 +94,7 @@ class Composer {
     if (!is_article_) {
       return lay_out_stage(scene_, plan_.stage, context_.font, plan_.is_floor_at_bottom);
     }
-    return lay_out_article(scene_, longest_count(scene_, context_.log()), plan_.stage,
-                           context_.font);
+    return lay_out_article(scene_, longest_count(scene_, context_.log), plan_.stage, context_.font);
   }
 
   /// Wall, floor, blocks and count.
@@ -146,7 +149,8 @@ class Composer {
     // In the order of Panel.
     constexpr std::array kPanels = {velocity_panel, position_panel,     unfolded_panel,
                                     time_panel,     count_panel,        ellipse_panel,
-                                    mirrors_panel,  conservation_panel, certainty_panel};
+                                    mirrors_panel,  conservation_panel, certainty_panel,
+                                    speeds_panel,   separation_panel};
     const std::vector<Panel>& panels = scene_.show.panels;
     for (std::size_t i = 0; i < panels.size(); ++i) {
       const auto make_panel = kPanels.at(static_cast<std::size_t>(panels[i]));
@@ -158,6 +162,7 @@ class Composer {
 
   const Scene& scene_;
   bool is_article_;
+  Bodies bodies_;
   Fonts fonts_;
   Palette palette_;
   Sizes sizes_;
@@ -172,14 +177,12 @@ class Composer {
 
 }  // namespace
 
-Composition::Composition(const Scene& scene, const CollisionLog& log,
-                         std::shared_ptr<const Image> logo)
+Composition::Composition(const Scene& scene, const SceneLog& log, std::shared_ptr<const Image> logo)
     : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}},
       drawables_(Composer(scene, log, needs_).run(std::move(logo))) {}
 
 DrawList Composition::frame(const FrameState& shown) const {
-  check(is_finite(shown.state.blue) && is_finite(shown.state.red), shown.time);
-  for (const BodyMotion& body : shown.bodies) check(is_finite(body), shown.time);
+  for (const BodyMotion& body : shown.state.bodies) check(is_finite(body), shown.time);
   DrawList list = empty_;
   for (const Drawable& drawable : drawables_) drawable(shown, list.items);
   check(are_finite(list.items), shown.time);

@@ -2,16 +2,17 @@
 // In: a scene and its collision log, once; a state, for every frame. Out: a draw list.
 #pragma once
 
-#include <piblocks/bodies.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "physics/exposure.hpp"
+#include "draw/scene_log.hpp"
 
 namespace piblocks {
 
@@ -34,24 +35,33 @@ inline constexpr int kMaxHitsPerSecond = 8;
 
 /// A collision that the picture has just passed.
 struct Hit {
-  CollisionKind kind = CollisionKind::blocks;
   Integer index;
-  double contact = 0;  ///< scene x of the surface where they met: the wall's face or blue's side
-  double age_s = 0;    ///< of video since the picture passed it, 0 <= age_s < kHitLife_s
-  Gaps gaps = {};      ///< then; if kind is blocks, y1 = y2 is where they met, seen from the wall
+  /// Places of two bodies; or of a body, and the number of bodies plus the place of a wall.
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  std::array<double, 2> contact = {};  ///< where their surfaces met, in the scene
+  double age_s = 0;  ///< of video since the picture passed it, 0 <= age_s < kHitLife_s
+  /// Then, of two blocks beside a wall; if the blocks met, y1 = y2 is where, seen from the wall.
+  Gaps gaps = {};
+};
+
+/// All bodies at the instant of a frame.
+struct ShownState : BodiesState {
+  ShownState() = default;
+  ShownState(BodiesState state) : BodiesState(std::move(state)) {}
+  ShownState(BlockState state) : BodiesState(bodies_state(std::move(state))) {}
 };
 
 /// What a frame is drawn from. It depends on nothing but the frame.
 struct FrameState {
-  BlockState state;       ///< of bodies the count alone
+  ShownState state;
   Rational time = 0;      ///< simulation time of the state
   Rational slowdown = 1;  ///< as in Stretch
-  /// Where the blocks are while the frame is exposed; if empty, as all else, at the instant.
+  /// Where the bodies are while the frame is exposed, by one of two; if both are empty, at the
+  /// instant.
   std::vector<WeightedExposure> exposure = {};
-  Gaps gaps = {};                       ///< of the state; filled in if FrameNeeds asks for them
-  std::vector<BodyMotion> bodies = {};  ///< if the scene has any
-  /// Where the bodies are while the frame is exposed; if empty, at the instant.
   std::vector<WeightedBodyExposure> body_exposure = {};
+  Gaps gaps = {};  ///< of two blocks beside a wall; filled in if FrameNeeds asks for them
   /// Where each body has been lately, in the order of time; filled in if FrameNeeds asks for it.
   std::vector<std::vector<PathPoint>> trails = {};
 
@@ -65,7 +75,8 @@ struct FrameState {
 struct FrameNeeds {
   bool gaps = false;
   bool hits = false;  ///< and hits_per_s
-  bool trails = false;
+  /// Simulation time that trails go back; 0 for none.
+  Rational trail = 0;
   bool video_s = false;  ///< in stills too, which have to look it up
 };
 
@@ -79,10 +90,7 @@ class Composition {
   /// @param logo  the picture that scene.show.logo names, if it does.
   /// @throws UsageError if something the scene asks for cannot be shown, such as an unknown glyph,
   ///         a line too long, a panel too small to be read; DrawError if the font cannot be loaded.
-  Composition(const Scene& scene, const CollisionLog& log,
-              std::shared_ptr<const Image> logo = nullptr);
-  /// The same of a scene with bodies.
-  Composition(const Scene& scene, const BodyLog& log, std::shared_ptr<const Image> logo = nullptr);
+  Composition(const Scene& scene, const SceneLog& log, std::shared_ptr<const Image> logo = nullptr);
 
   DrawList frame(const FrameState& shown) const;
   /// What frame() reads of a FrameState beside what is always there.

@@ -75,19 +75,18 @@ struct Layout {
 /// What overlays and panels are drawn from. It does not outlive their making.
 struct DrawingContext {
   const Scene& scene;
-  const Timeline& timeline;
-  const CollisionLog* blocks = nullptr;  ///< the same, of two blocks and a wall; else nullptr
-  const BodyLog* bodies = nullptr;       ///< the same, of bodies; else nullptr
+  const Bodies& bodies;  ///< of the scene
+  const SceneLog& log;
   const Palette& palette;
   const Fonts& fonts;
   const Font& font;  ///< of plain text
   const Layout& layout;
   const Sizes& sizes;
-  FrameNeeds& needs;                         ///< a drawable says here what it reads of a FrameState
-  std::optional<double> certain_until = {};  ///< as BodyLog has it
+  FrameNeeds& needs;  ///< a drawable says here what it reads of a FrameState
 
-  /// Of two blocks and a wall, for what is drawn for them alone.
-  const CollisionLog& log() const { return *blocks; }
+  /// Of two blocks beside a wall, for what is drawn for them alone.
+  const CollisionLog& two_blocks() const { return *log.two_blocks(); }
+  bool is_plane() const noexcept { return bodies.system.dimensions == 2; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };
 

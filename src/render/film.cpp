@@ -83,35 +83,27 @@ std::vector<Voice> voices_of(const Film& film) {
   return voices;
 }
 
+SceneLog scene_log_of(const RunLog& log) {
+  if (const BodyLog* const bodies = log.bodies()) return *bodies;
+  return *log.blocks();
+}
+
 }  // namespace
 
 FilmRun::FilmRun(Scene scene, RunLog log, FilmUse use)
-    : scene_(std::move(scene)), log_(std::move(log)) {
+    : scene_(std::move(scene)), log_(std::move(log)), scene_log_(scene_log_of(log_)) {
   if (use == FilmUse::audio_only) return;
-  if (const BodyLog* const bodies = log_.bodies()) {
-    composition_.emplace(scene_, *bodies, read_logo(scene_));
-  } else {
-    composition_.emplace(scene_, *log_.blocks(), read_logo(scene_));
-  }
+  composition_.emplace(scene_, scene_log_, read_logo(scene_));
 }
 
 DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) const {
-  if (log_.bodies() != nullptr) return picture_of_bodies(shown);
-  const CollisionLog& blocks = *log_.blocks();
-  const FrameNeeds& needs = composition_->needs();
-  return composition_->frame(video_time == nullptr
-                                 ? frame_state(blocks, shown, needs)
-                                 : frame_state(blocks, shown, needs, *video_time));
-}
-
-DrawList FilmRun::picture_of_bodies(const FrameTime& shown) const {
   Rational last = shown.time;
   for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
-  const BodyLog& bodies = *log_.bodies();
-  require_certain(scene_, bodies, last);
-  constexpr int kTrail_s = 2;  // of video at the scene's own speed
-  return composition_->frame(
-      frame_state(bodies, shown, composition_->needs(), scene_.time.speed * kTrail_s));
+  if (const BodyLog* const bodies = log_.bodies()) require_certain(scene_, *bodies, last);
+  const FrameNeeds& needs = composition_->needs();
+  return composition_->frame(video_time == nullptr
+                                 ? frame_state(scene_log_, shown, needs)
+                                 : frame_state(scene_log_, shown, needs, *video_time));
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {

@@ -57,10 +57,10 @@ class FilmRun {
 
  private:
   DrawList picture(const FrameTime& shown, const VideoTime* video_time) const;
-  DrawList picture_of_bodies(const FrameTime& shown) const;
 
   Scene scene_;
   RunLog log_;
+  SceneLog scene_log_;                      ///< what log_ has
   std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
 };
 

@@ -22,6 +22,10 @@ Settings lecture(int digits) {
           {"show.loupe", "off"}};
 }
 
+/// What blue meets.
+constexpr std::uint32_t kRed = 1;
+constexpr std::uint32_t kWall = 2;
+
 struct Arc {
   Point centre;
   double radius = 0;
@@ -116,7 +120,7 @@ TEST(HitMarks, OfTheWallAndOfBlocksAreInTheCornersAboveTheLowerBody) {
     SCOPED_TRACE(mass);
     const Frames frames(Settings{{"view.theme", "lecture"}, {"mass-ratio", mass}});
     FrameState state = frames.state({Rational(3)});
-    state.hits = {{CollisionKind::wall, 1, 0, 0.1, {}}, {CollisionKind::blocks, 2, 1, 0.05, {}}};
+    state.hits = {{1, 0, kWall, {0, 0}, 0.1, {}}, {2, 0, kRed, {1, 0}, 0.05, {}}};
     const DrawList frame = frames.of(state);
     const auto items = items_of<PathItem>(frame.items, ItemId::hits);
     ASSERT_EQ(items.size(), 2U);
@@ -138,7 +142,7 @@ TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
         Settings{{"view.theme", "lecture"}, {"show.hits", "false"}, {"show.loupe", "auto"}}}) {
     const Frames frames(settings);
     FrameState state = frames.state({frames.turn()});
-    state.hits = {{CollisionKind::wall, 1, 0, 0.1, {}}};
+    state.hits = {{1, 0, kWall, {0, 0}, 0.1, {}}};
     const DrawList frame = frames.of(state);
     EXPECT_TRUE(items_of<PathItem>(frame.items, ItemId::hits).empty());
     if (const auto seen = loupe_in(frame)) {
@@ -156,8 +160,8 @@ TEST(HitMarks, AreInTheLoupeToo) {
   const Frames frames(settings);
   FrameState state = frames.state({frames.turn()});
   const Gaps gaps = state.gaps;
-  state.hits = {{CollisionKind::wall, 1, 0, 0.1, {0, gaps.y2}},
-                {CollisionKind::blocks, 2, 1 + gaps.y2, 0.05, {gaps.y2 / 2, gaps.y2 / 2}}};
+  state.hits = {{1, 0, kWall, {0, 0}, 0.1, {0, gaps.y2}},
+                {2, 0, kRed, {1 + gaps.y2, 0}, 0.05, {gaps.y2 / 2, gaps.y2 / 2}}};
   const auto seen = loupe_in(frames.of(state));
   ASSERT_TRUE(seen);
   const auto items = items_of<PathItem>(seen->list.items, ItemId::hits);

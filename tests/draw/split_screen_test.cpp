@@ -71,8 +71,10 @@ TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
   const Layout layout;
   const Sizes sizes(scene.view);
   FrameNeeds needs;
-  const DrawingContext context{
-      scene, *log, log.get(), nullptr, palette, fonts, fonts.of(Face::text), layout, sizes, needs};
+  const SceneLog scene_log(*log);
+  const Bodies bodies = bodies_of(scene);
+  const DrawingContext context{scene,  bodies, scene_log, palette, fonts, fonts.of(Face::text),
+                               layout, sizes,  needs};
   for (const double pi_px : {0.0, 100.0, 700.0}) {
     for (const double slow_px : {0.0, 120.0, 800.0}) {
       const CounterRoom room{

@@ -445,8 +445,7 @@ TEST(Mirrors, OpenFromTheWedgeBefore) {
   const auto with_age = [&](int count, double age_s) {
     const Rational time = pictures.log->time_after(count);
     FrameState shown{pictures.log->state_at(time), time};
-    const Collision collision = pictures.log->collision(count);
-    shown.hits.push_back({.kind = collision.kind, .index = count, .age_s = age_s});
+    shown.hits.push_back({.index = count, .age_s = age_s});
     return pictures.composition.frame(shown);
   };
   for (int count = 1; count <= 31; ++count) {

@@ -34,8 +34,9 @@ constexpr std::array<Color, 4> kOnDark = {
 constexpr std::array<Color, 4> kGreys = {
     {{210, 210, 210}, {84, 84, 84}, {150, 150, 150}, {232, 232, 232}}};
 
-Color fill_of(const Scene& scene, const Palette& palette, std::size_t body) {
-  const Bodies& bodies = *scene.bodies;
+Color fill_of(const DrawingContext& context, std::size_t body) {
+  const Palette& palette = context.palette;
+  const Bodies& bodies = context.bodies;
   if (const auto& color = bodies.styles[body].color) {
     const auto& [red, green, blue] = *color;
     return {red, green, blue};
@@ -45,20 +46,21 @@ Color fill_of(const Scene& scene, const Palette& palette, std::size_t body) {
   const std::size_t turn = count > kMostColored ? 0 : body % (2 + kOnLight.size());
   if (turn == 0) return palette.blue.fill;
   if (turn == 1) return palette.red.fill;
-  if (scene.view.theme == Theme::print) return kGreys.at(turn - 2);
+  if (context.scene.view.theme == Theme::print) return kGreys.at(turn - 2);
   const bool is_dark = luminance(palette.background) < 0.2;
   return (is_dark ? kOnDark : kOnLight).at(turn - 2);
 }
 
 }  // namespace
 
-BodyColors body_colors(const Scene& scene, const Palette& palette, std::size_t body) {
-  const Color fill = fill_of(scene, palette, body);
+BodyColors body_colors(const DrawingContext& context, std::size_t body) {
+  const Palette& palette = context.palette;
+  const Color fill = fill_of(context, body);
   const bool is_dark = luminance(palette.background) < 0.2;
   const bool is_fill_dark = luminance(fill) < 0.25;
-  const Color edge = scene.view.theme == Theme::print ? palette.wall
-                     : is_dark                        ? lighter(fill)
-                                                      : darker(fill);
+  const Color edge = context.scene.view.theme == Theme::print ? palette.wall
+                     : is_dark                                ? lighter(fill)
+                                                              : darker(fill);
   return {fill, edge, is_fill_dark ? Color{255, 255, 255} : Color{12, 14, 18}};
 }
 

@@ -2,10 +2,7 @@
 // In: a theme and the place of a body. Out: what fills it, its edge and the text on it.
 #pragma once
 
-#include <piblocks/scene.hpp>
-
-#include "draw/draw_list.hpp"
-#include "draw/look.hpp"
+#include "draw/layout.hpp"
 
 namespace piblocks {
 
@@ -17,6 +14,6 @@ struct BodyColors {
 
 /// The colour that the scene gives it; else those of blue and red, and further ones, in turn. A
 /// body that no collision moves has the colour of walls.
-BodyColors body_colors(const Scene& scene, const Palette& palette, std::size_t body);
+BodyColors body_colors(const DrawingContext& context, std::size_t body);
 
 }  // namespace piblocks

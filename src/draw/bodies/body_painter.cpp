@@ -36,7 +36,7 @@ struct ArrowLook {
 ArrowLook arrow_look(const DrawingContext& context) {
   double energy = 0;
   double mass = 0;
-  for (const Body& body : context.scene.bodies->system.bodies) {
+  for (const Body& body : context.bodies.system.bodies) {
     if (!body.mass) continue;
     const auto& [x, y] = body.velocity;
     energy += to_double(*body.mass * (x * x + y * y));
@@ -98,7 +98,7 @@ class BodyPainter {
     } else {
       add_discs(shown, items);
     }
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
       if (!bodies_.shapes[i].label.empty()) items.emplace_back(label_of(i, centre_of(shown, i)));
     }
     if (arrows_.are_shown) add_arrows(shown, items);
@@ -106,7 +106,7 @@ class BodyPainter {
 
  private:
   Point centre_of(const FrameState& shown, std::size_t body) const {
-    return bodies_.map.at(shown.bodies[body].position);
+    return bodies_.map.at(shown.state.bodies[body].position);
   }
 
   /// Lines behind discs. They end where the disc is.
@@ -135,7 +135,7 @@ class BodyPainter {
 
   void add_blocks(const FrameState& shown, std::vector<DrawItem>& items) const {
     std::vector<ExposedBlock> blocks;
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
       blocks.push_back(block_of(i, centre_of(shown, i)));
     }
     if (shown.body_exposure.empty()) {
@@ -150,7 +150,7 @@ class BodyPainter {
 
   void add_discs(const FrameState& shown, std::vector<DrawItem>& items) const {
     ExposedDiscsItem exposed{nth(ItemId::red_block, kExposed), {}};
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
       std::vector<DiscPath> paths = paths_of(i, shown.body_exposure);
       if (paths.empty()) {
         items.emplace_back(disc_of(i, centre_of(shown, i)));
@@ -216,11 +216,11 @@ class BodyPainter {
   }
 
   void add_arrows(const FrameState& shown, std::vector<DrawItem>& items) const {
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
       Point from = centre_of(shown, i);
       if (bodies_.are_blocks) from.y -= bodies_.shapes[i].height_px + arrows_.above_px;
-      add_arrow(arrows_, nth(ItemId::blue_block, kArrows + 2 * i), from, shown.bodies[i].velocity,
-                items);
+      add_arrow(arrows_, nth(ItemId::blue_block, kArrows + 2 * i), from,
+                shown.state.bodies[i].velocity, items);
     }
   }
 

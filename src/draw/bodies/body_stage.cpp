@@ -34,10 +34,13 @@ constexpr std::size_t kMostDrawn = 50'000;
 class BodyStage {
  public:
   BodyStage(const DrawingContext& context, const Rectangle& area)
-      : context_(context), system_(context.scene.bodies->system), area_(area) {
+      : context_(context), system_(context.bodies.system), area_(area) {
     bodies_.are_blocks = system_.dimensions == 1;
     check_number();
-    context.needs.trails = context.scene.show.has(Overlay::trails);
+    constexpr int kTrail_s = 2;  // of video at the scene's own speed
+    if (context.scene.show.has(Overlay::trails)) {
+      context.needs.trail = context.scene.time.speed * kTrail_s;
+    }
     if (bodies_.are_blocks) {
       lay_out_line();
     } else {
@@ -84,7 +87,7 @@ class BodyStage {
 
   bool has_labels() const {
     return context_.scene.show.has(Overlay::masses) ||
-           std::ranges::any_of(context_.scene.bodies->styles,
+           std::ranges::any_of(context_.bodies.styles,
                                [](const BodyStyle& style) { return !style.label.empty(); });
   }
 
@@ -135,7 +138,7 @@ class BodyStage {
       BodyShape& shape = bodies_.shapes.emplace_back();
       shape.half_width_px = to_double(system_.bodies[i].size) * bodies_.map.scale / 2;
       shape.height_px = std::max(1.0, std::floor(heights[i] * unit));
-      shape.colors = body_colors(context_.scene, context_.palette, i);
+      shape.colors = body_colors(context_, i);
     }
   }
 
@@ -155,7 +158,7 @@ class BodyStage {
     for (std::size_t i = 0; i < system_.bodies.size(); ++i) {
       BodyShape& shape = bodies_.shapes.emplace_back();
       shape.half_width_px = to_double(system_.bodies[i].size) * bodies_.map.scale;
-      shape.colors = body_colors(context_.scene, context_.palette, i);
+      shape.colors = body_colors(context_, i);
     }
   }
 
@@ -183,7 +186,7 @@ class BodyStage {
     const double size_px = context_.sizes.mass;
     for (std::size_t i = 0; i < bodies_.shapes.size(); ++i) {
       BodyShape& shape = bodies_.shapes[i];
-      shape.label = context_.scene.bodies->styles[i].label;
+      shape.label = context_.bodies.styles[i].label;
       const auto& mass = system_.bodies[i].mass;
       if (shape.label.empty() && mass && context_.scene.show.has(Overlay::masses)) {
         shape.label = short_text(*mass);

@@ -58,10 +58,7 @@ struct WallPart {
 class BodyWalls {
  public:
   BodyWalls(const DrawingContext& context, const BodyShapes& bodies, const Rectangle& area)
-      : context_(context),
-        walls_(context.scene.bodies->system.walls),
-        bodies_(bodies),
-        area_(area) {}
+      : context_(context), walls_(context.bodies.system.walls), bodies_(bodies), area_(area) {}
 
   std::vector<DrawItem> items() && {
     if (bodies_.are_blocks) {

@@ -48,7 +48,7 @@ class ArticleStage {
         behind_(std::move(behind)),
         lit_digits_(std::move(lit_digits)),
         base_(context.scene.show.base),
-        endless_(is_endless(context.log()) ? std::optional(context.log().size()) : std::nullopt),
+        endless_(is_endless(context.log) ? std::optional(context.log->size()) : std::nullopt),
         widths_(context.font,
                 count_characters(base_) + (endless_ ? std::string(kEndlessCount) : "")) {}
 

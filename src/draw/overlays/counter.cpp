@@ -60,9 +60,9 @@ class Counter {
         palette_(context.palette),
         face_(context.font.face()),
         base_(context.scene.show.base),
-        last_(context.timeline.size()),
-        may_go_on_(context.timeline.may_go_on()),
-        is_endless_(is_endless(context.timeline)),
+        last_(context.log->size()),
+        may_go_on_(context.log->may_go_on()),
+        is_endless_(is_endless(context.log)),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
         count_widths_(context.fonts.of(Face::digits),
@@ -142,18 +142,21 @@ class Counter {
 
 }  // namespace
 
-std::string pi_count(const Scene& scene, const CollisionLog& log) {
+std::string pi_count(const DrawingContext& context) {
+  if (context.log.two_blocks() == nullptr) return {};
+  const Scene& scene = context.scene;
+  const CollisionLog& log = context.two_blocks();
   const int base = scene.show.base;
   const bool is_asked_for = scene.show.has(Overlay::digits);
   if (!is_asked_for && scene.view.theme == Theme::article) return {};
-  if (!places_of_pi(scene.system, base)) {
+  if (!places_of_pi(log.system(), base)) {
     if (!is_asked_for) return {};
     throw UsageError(fmt::format(
         "show.overlays: there are no digits of pi to light up, since this scene does not count "
         "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
         base * base));
   }
-  if (!counted_pi(scene.system, log.size(), base).empty()) return count_text(log.size(), base);
+  if (!counted_pi(log.system(), log.size(), base).empty()) return count_text(log.size(), base);
   if (!is_asked_for) return {};
   const std::string counted = log.size().get_str(base);
   std::string digits = pi_digits(base, counted.size());
@@ -183,7 +186,7 @@ Integer longest_count(const Scene& scene, const Timeline& log) {
 }
 
 CounterRoom counter_room(const DrawingContext& context, const std::string& pi_count) {
-  const Integer longest = longest_count(context.scene, context.timeline);
+  const Integer longest = longest_count(context.scene, context.log);
   CounterRoom room;
   room.count_em = count_width_em(longest, context.scene.show.base, context.fonts.of(Face::digits));
   room.label_px = (context.font.width_em(kOverLabel) + kLabelGap_em) * context.sizes.text;

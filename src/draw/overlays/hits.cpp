@@ -77,7 +77,7 @@ HitMarks::HitMarks(const DrawingContext& context, const BlockDimensions& dimensi
 }
 
 void HitMarks::add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawItem>& items) const {
-  const MarkSector& sector = sector_of(hit.kind);
+  const MarkSector& sector = sector_of(hit);
   const std::span directions(sector.directions);
   const double left = 1 - hit.age_s / kHitLife_s;  // of its life
   const double radius = reach_px_ * (1 - (1 - kFirstRadius) * left * left);
@@ -140,8 +140,8 @@ Drawable hit_marks(const DrawingContext& context) {
                        has_mass ? step_px : HUGE_VAL);
   const double wall_x_px = layout.at(to_double(scene.system.wall_face), 0).x;
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
-    const double blocks_x_px = layout.at(layout.red, shown.state.red.position).x;
-    const auto x_of = [&](const Hit& hit) { return layout.at(hit.contact, 0).x; };
+    const double blocks_x_px = layout.at(layout.red, shown.state.bodies[1].position[0]).x;
+    const auto x_of = [&](const Hit& hit) { return layout.at(hit.contact[0], 0).x; };
     marks.add(shown, {wall_x_px, blocks_x_px}, x_of, items);
   };
 }

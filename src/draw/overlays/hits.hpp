@@ -56,9 +56,7 @@ class HitMarks {
     std::vector<std::shared_ptr<const Plate>> glows;
   };
 
-  const MarkSector& sector_of(CollisionKind kind) const {
-    return kind == CollisionKind::wall ? wall_ : blocks_;
-  }
+  const MarkSector& sector_of(const Hit& hit) const { return hit.second == 2 ? wall_ : blocks_; }
   void set_glows(MarkSector& sector) const;
 
   double reach_px_;  ///< of arcs

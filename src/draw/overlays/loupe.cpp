@@ -34,11 +34,11 @@ std::optional<Loupe> loupe_of(const Scene& scene) {
 /// The gap between wall and red when it is about least; infinite if that cannot be told.
 /// @param within  the times of interest; if empty, all
 double least_gap(const DrawingContext& context, const std::optional<Span>& within = {}) {
-  const CollisionLog& log = context.log();
+  const CollisionLog& log = context.two_blocks();
   const auto is_within = [&](const Rational& time) {
     return !within || (time >= within->from && time <= within->to);
   };
-  const Rational turn = turn_of(context.scene.system).value_or(0);
+  const Rational turn = turn_of(context.two_blocks().system()).value_or(0);
   try {
     double least = HUGE_VAL;
     if (is_within(turn)) least = gaps_at(log, turn).y2;
@@ -57,7 +57,7 @@ double least_gap(const DrawingContext& context, const std::optional<Span>& withi
   }
 }
 
-Span span_of_window(const LoupeWindow& window, const CollisionLog& log) {
+Span span_of_window(const LoupeWindow& window, const Timeline& log) {
   Span span{time_of(window.from, kLoupeKey, log), time_of(window.to, kLoupeKey, log)};
   if (span.from < span.to) return span;
   throw UsageError(fmt::format("{}: its window from {} to {} must end after it begins", kLoupeKey,
@@ -67,8 +67,8 @@ Span span_of_window(const LoupeWindow& window, const CollisionLog& log) {
 /// @throws UsageError if the loupe would not be seen in its window.
 void check_is_seen(const DrawingContext& context, const Span& window) {
   Span shown = window;
-  if (has_span(context.scene, context.log())) {
-    const Span span = span_of(context.scene, context.log());
+  if (has_span(context.scene, context.log)) {
+    const Span span = span_of(context.scene, context.log);
     shown = {std::max(window.from, span.from), std::min(window.to, span.to)};
     if (shown.from >= shown.to) {
       throw UsageError(fmt::format(
@@ -92,9 +92,11 @@ void check_is_seen(const DrawingContext& context, const Span& window) {
 
 bool may_show_loupe(const DrawingContext& context) {
   const View& view = context.scene.view;
+  if (context.log.two_blocks() == nullptr) return false;
   if (!shows_wall(context.scene) || !loupe_of(context.scene)) return false;
   // The stage's scale is known only once there is a stage. It is not larger.
-  const double scale = view.width_px / to_double(view.x.high - context.scene.system.wall_face);
+  const double scale =
+      view.width_px / to_double(view.x.high - context.two_blocks().system().wall_face);
   return least_gap(context) * scale < style::kMaxLoupeGap * context.sizes.short_side;
 }
 
@@ -102,7 +104,7 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
                                                    const FramePlan& plan) {
   const Scene& scene = context.scene;
   const std::optional<Loupe> loupe = loupe_of(scene);
-  if (!loupe) return nullptr;
+  if (!loupe || context.log.two_blocks() == nullptr) return nullptr;
   const bool is_asked_for = loupe->window.has_value();
   const double gap_px = least_gap(context) * context.layout.scale;
   if (!shows_wall(scene)) {
@@ -113,7 +115,7 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   }
   const bool is_small = gap_px < style::kMaxLoupeGap * context.sizes.short_side;
   if (!is_asked_for && !is_small) return nullptr;
-  if (is_asked_for) check_is_seen(context, span_of_window(*loupe->window, context.log()));
+  if (is_asked_for) check_is_seen(context, span_of_window(*loupe->window, context.log));
   auto inset = std::shared_ptr<LoupeInset>(new LoupeInset(context, *loupe, gap_px));
   const std::optional<LoupePlace> place = find_loupe_place(context, plan, inset->texts());
   if (place) {
@@ -144,7 +146,7 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
       widths_(context.font, "0123456789,.×·") {
   context.needs.gaps = true;
   if (loupe.window) {
-    window_ = Window{span_of_window(*loupe.window, context.log()), to_double(loupe.window->zoom)};
+    window_ = Window{span_of_window(*loupe.window, context.log), to_double(loupe.window->zoom)};
   }
   const FormulaSetter setter = context.setter();
   const long most = zoom_.most_exponent() + 1;

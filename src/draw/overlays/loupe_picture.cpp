@@ -47,7 +47,7 @@ double LoupeInset::zoom(double gap) const {
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const Rectangle red = stage_.at(stage_.red, shown.state.red.position);
+  const Rectangle red = stage_.at(stage_.red, shown.state.bodies[1].position[0]);
   // By whole pixels, they stay as they are while red hardly moves.
   const Point from{std::round(red.x + kLinesInRed * red.width), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
@@ -84,7 +84,7 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
   if (marks_) {
     const auto red_face = [&](double gap) { return face_px_ + gap * px_per_unit + blue_width_px_; };
     const auto x_of = [&](const Hit& hit) {
-      return hit.kind == CollisionKind::wall ? face_px_ : red_face(hit.gaps.y2);
+      return hit.second == 2 ? face_px_ : red_face(hit.gaps.y2);
     };
     marks_->add(shown, {face_px_, red_face(shown.gaps.y2)}, x_of, list.items);
   }

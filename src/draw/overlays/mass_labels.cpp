@@ -186,8 +186,8 @@ Drawable mass_labels(const DrawingContext& context) {
   const MassLabel blue = mass_label(1, texts.blue, system.blue, context);
   return [=, room = LabelRoom(context), layout = context.layout](const FrameState& shown,
                                                                  std::vector<DrawItem>& items) {
-    const Rectangle red_block = layout.at(layout.red, shown.state.red.position);
-    const Rectangle blue_block = layout.at(layout.blue, shown.state.blue.position);
+    const Rectangle red_block = layout.at(layout.red, shown.state.bodies[1].position[0]);
+    const Rectangle blue_block = layout.at(layout.blue, shown.state.bodies[0].position[0]);
     room.add(red, red_block, blue_block, items);
     room.add(blue, blue_block, red_block, items);
   };

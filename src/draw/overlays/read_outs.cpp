@@ -48,13 +48,12 @@ int time_decimals(const Scene& scene, const Timeline& log) {
 }
 
 ReadOut time_read_out(const DrawingContext& context) {
-  const auto text = [decimals =
-                         time_decimals(context.scene, context.timeline)](const Rational& time) {
+  const auto text = [decimals = time_decimals(context.scene, context.log)](const Rational& time) {
     return fmt::format("t = {}", fixed_text(time, decimals));
   };
   Rational end = 0;
-  if (has_span(context.scene, context.timeline)) {
-    const Span span = span_of(context.scene, context.timeline);
+  if (has_span(context.scene, context.log)) {
+    const Span span = span_of(context.scene, context.log);
     end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
   }
   return {"time", text(-end), [=](const FrameState& shown) { return text(shown.time); },
@@ -150,7 +149,7 @@ struct Scale {
 };
 
 ReadOut energy_read_out(const DrawingContext& context, int digits) {
-  const BlockSystem& system = context.scene.system;
+  const BlockSystem& system = context.two_blocks().system();
   const Rational exact_sum = twice_energy(system) / 2;
   const Scale scale(magnitude_of(exact_sum), digits);
   const double sum = scale.is_plain ? to_double(exact_sum) : scale.largest.mantissa;
@@ -161,22 +160,22 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
   };
   // A block's velocity if it had all the energy. It may be beyond the range of a double.
   const auto fastest = [&](const Block& block) { return root_of(2 * exact_sum / block.mass); };
-  const auto energy = [sum](const Motion& block, const mpf_class& most) {
-    const double share = most > 0 ? mpf_class(block.velocity / most).get_d() : 0;
+  const auto energy = [sum](const BodyMotion& block, const mpf_class& most) {
+    const double share = most > 0 ? mpf_class(block.velocity[0] / most).get_d() : 0;
     return sum * std::min(1.0, share * share);
   };
   const auto shown_text = [=, most_of_red = fastest(system.red),
                            most_of_blue = fastest(system.blue),
                            is_kept = is_elastic(system)](const FrameState& shown) {
-    const double red = energy(shown.state.red, most_of_red);
-    const double blue = is_kept ? sum - red : energy(shown.state.blue, most_of_blue);
+    const double red = energy(shown.state.bodies[1], most_of_red);
+    const double blue = is_kept ? sum - red : energy(shown.state.bodies[0], most_of_blue);
     return text(red, blue, is_kept ? sum : red + blue);
   };
   return {"energy", text(sum, sum, sum), shown_text, context.palette.text};
 }
 
 ReadOut momentum_read_out(const DrawingContext& context, int digits) {
-  const BlockSystem& system = context.scene.system;
+  const BlockSystem& system = context.two_blocks().system();
   // The heavier block has the most momentum when it has all the energy.
   const Rational most_squared = twice_energy(system) * std::max(system.blue.mass, system.red.mass);
   const Scale scale(root_magnitude_of(most_squared), digits);
@@ -195,8 +194,8 @@ ReadOut momentum_read_out(const DrawingContext& context, int digits) {
   const auto shown_text = [text, red_factor = momentum_per_velocity(system.red),
                            blue_factor =
                                momentum_per_velocity(system.blue)](const FrameState& shown) {
-    return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
-                mpf_class(blue_factor * shown.state.blue.velocity).get_d());
+    return text(mpf_class(red_factor * shown.state.bodies[1].velocity[0]).get_d(),
+                mpf_class(blue_factor * shown.state.bodies[0].velocity[0]).get_d());
   };
   return {"momentum", text(-most, -most), shown_text, context.palette.text};
 }
@@ -217,7 +216,7 @@ ReadOut fitted(const DrawingContext& context,
 
 /// Sums over all bodies. Elastic collisions keep the energy; walls take momentum.
 ReadOut sums_read_out(const DrawingContext& context, Overlay overlay) {
-  const Bodies& bodies = *context.scene.bodies;
+  const Bodies& bodies = context.bodies;
   std::vector<double> masses;
   for (const Body& body : bodies.system.bodies) {
     masses.push_back(body.mass ? to_double(*body.mass) : 0);
@@ -239,7 +238,7 @@ ReadOut sums_read_out(const DrawingContext& context, Overlay overlay) {
   };
   return {"energy",
           overlay == Overlay::energy ? "Energy −8.8888e+88" : "Momentum (−8.8888e+88, −8.8888e+88)",
-          [=](const FrameState& shown) { return text(shown.bodies); }, context.palette.text};
+          [=](const FrameState& shown) { return text(shown.state.bodies); }, context.palette.text};
 }
 
 /// From which time on the picture may be wrong.
@@ -260,8 +259,8 @@ std::vector<ReadOut> read_outs_of_bodies(const DrawingContext& context) {
   for (const Overlay overlay : {Overlay::energy, Overlay::momentum}) {
     if (show.has(overlay)) read_outs.push_back(sums_read_out(context, overlay));
   }
-  if (context.certain_until) {
-    read_outs.push_back(certainty_read_out(context, *context.certain_until));
+  if (const std::optional<double> until = context.log.certain_until()) {
+    read_outs.push_back(certainty_read_out(context, *until));
   }
   return read_outs;
 }

@@ -147,10 +147,10 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
 
 void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,
                 std::vector<DrawItem>& items) {
-  ExposedBlock red =
-      block_at(layout.at(layout.red, shown.state.red.position), palette.red, layout.line_px);
-  ExposedBlock blue =
-      block_at(layout.at(layout.blue, shown.state.blue.position), palette.blue, layout.line_px);
+  ExposedBlock red = block_at(layout.at(layout.red, shown.state.bodies[1].position[0]), palette.red,
+                              layout.line_px);
+  ExposedBlock blue = block_at(layout.at(layout.blue, shown.state.bodies[0].position[0]),
+                               palette.blue, layout.line_px);
   if (shown.exposure.empty()) {
     add_rectangles(ItemId::red_block, red, items);
     add_rectangles(ItemId::blue_block, blue, items);

@@ -84,8 +84,9 @@ class VelocityArrows {
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    std::optional<Figure> red = figure_of(2, shown.state.red, red_px_);
-    std::optional<Figure> blue = figure_of(6, shown.state.blue, blue_px_);
+    const auto [count, blue_motion, red_motion] = blocks_state(shown.state);
+    std::optional<Figure> red = figure_of(2, red_motion, red_px_);
+    std::optional<Figure> blue = figure_of(6, blue_motion, blue_px_);
     if (red && blue) {
       keep_apart(*blue, *red);
     } else if (red || blue) {
@@ -93,11 +94,11 @@ class VelocityArrows {
       left = std::max(left, least_left_px_);
     }
     if (red) {
-      add_arrow(0, shown.state.red, palette_.red.line, items);
+      add_arrow(0, red_motion, palette_.red.line, items);
       items.emplace_back(std::move(red->item));
     }
     if (blue) {
-      add_arrow(4, shown.state.blue, palette_.blue.line, items);
+      add_arrow(4, blue_motion, palette_.blue.line, items);
       items.emplace_back(std::move(blue->item));
     }
   }

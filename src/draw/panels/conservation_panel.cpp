@@ -64,11 +64,11 @@ class ConservationPanel {
  public:
   ConservationPanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of(context)),
-        momenta_(context.scene.system),
+        momenta_(context.two_blocks().system()),
         face_(context.font.face() == Face::article ? Face::article : Face::digits),
         widths_(context.fonts.of(face_), "0123456789.,−% ") {
-    const Rational energy = twice_energy(context.scene.system);
-    if (energy > 0) red_factor_ = root_of(context.scene.system.red.mass / energy);
+    const Rational energy = twice_energy(context.two_blocks().system());
+    if (energy > 0) red_factor_ = root_of(context.two_blocks().system().red.mass / energy);
     moves_ = energy > 0;
     place_rows();
     place_columns(context);
@@ -79,12 +79,12 @@ class ConservationPanel {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(diagram_.item());
     if (!moves_) return;
-    const double red = shown.state.red.velocity;
+    const double red = shown.state.bodies[1].velocity[0];
     const double share = mpf_class(red_factor_ * red).get_d();
     add_energy(std::clamp(share * share, 0.0, 1.0), items);
     std::array<double, kRows> values{};
     values[kRedRow] = mpf_class(momenta_.red_factor * red).get_d();
-    values[kBlueRow] = mpf_class(momenta_.blue_factor * shown.state.blue.velocity).get_d();
+    values[kBlueRow] = mpf_class(momenta_.blue_factor * shown.state.bodies[0].velocity[0]).get_d();
     values[kWallRow] = momenta_.sum - values[kRedRow] - values[kBlueRow];
     const std::array colors = colors_of_rows();
     for (const std::size_t row : {kRedRow, kBlueRow, kWallRow}) {

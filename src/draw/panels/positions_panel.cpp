@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "draw/bodies/body_look.hpp"
-#include "draw/bodies/body_panels.hpp"
+#include "draw/panels/panels.hpp"
 
 namespace piblocks {
 namespace {
@@ -25,10 +25,10 @@ class PositionsPanel {
         axis_(context, diagram_, 0),
         low_(to_double(context.scene.view.x.low)),
         high_(to_double(context.scene.view.x.high)) {
-    const BodySystem& system = context.bodies->system();
-    const std::vector<std::vector<Corner>> paths = paths_of(*context.bodies);
+    const BodySystem& system = context.bodies.system;
+    const std::vector<std::vector<Corner>> paths = paths_of(context.log);
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      const Color color = body_colors(context.scene, context.palette, i).fill;
+      const Color color = body_colors(context, i).fill;
       half_widths_.push_back(to_double(system.bodies[i].size) / 2);
       add_band(paths[i], half_widths_.back(), color);
     }
@@ -46,8 +46,8 @@ class PositionsPanel {
     const double time = to_double(shown.time);
     if (!axis_.shows(time)) return;
     items.emplace_back(axis_.cursor(diagram_, 0, {axis_.x_of(time), axis_.plot().y}));
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
-      const double position = shown.bodies[i].position[0];
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
+      const double position = shown.state.bodies[i].position[0];
       if (position < low_ || position > high_) continue;
       items.emplace_back(
           diagram_.dot(1 + i, {axis_.x_of(time), y_of(position)}, diagram_.palette().text));
@@ -67,7 +67,7 @@ class PositionsPanel {
   }
 
   /// The corners of each body's path while the scene is shown.
-  std::vector<std::vector<Corner>> paths_of(const BodyLog& log) const {
+  std::vector<std::vector<Corner>> paths_of(const SceneLog& log) const {
     const Span& span = axis_.span();
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::ceil(axis_.plot().width)));
     const BodiesState first = log.state_at(span.from);
@@ -87,7 +87,7 @@ class PositionsPanel {
         add(time, log.state_at(time));
       }
     } else {
-      for (Integer k = first.count + 1; k <= last.count && k <= log.size(); ++k) {
+      for (Integer k = first.count + 1; k <= last.count && k <= log->size(); ++k) {
         const BodyCollision c = log.collision(k);
         for (const auto& [id, motion] :
              {std::pair(c.first, c.first_after), std::pair(c.second, c.second_after)}) {

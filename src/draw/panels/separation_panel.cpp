@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "draw/bodies/body_look.hpp"
-#include "draw/bodies/body_panels.hpp"
+#include "draw/panels/panels.hpp"
 
 namespace piblocks {
 namespace {
@@ -39,9 +39,11 @@ struct Meeting {
   double after_from = 0;
 };
 
-Meeting first_meeting(const BodyLog& log, const Span& span) {
-  const std::size_t bodies = log.system().bodies.size();
-  for (Integer k = log.count_at(span.from) + 1; k <= log.size(); ++k) {
+Meeting first_meeting(const DrawingContext& context) {
+  const SceneLog& log = context.log;
+  const Span span = span_of(context.scene, log);
+  const std::size_t bodies = context.bodies.system.bodies.size();
+  for (Integer k = log->count_at(span.from) + 1; k <= log->size(); ++k) {
     const BodyCollision c = log.collision(k);
     if (c.second >= bodies) continue;
     const Rational time = to_rational(c.time);
@@ -67,10 +69,10 @@ Meeting first_meeting(const BodyLog& log, const Span& span) {
 class SeparationPanel {
  public:
   SeparationPanel(const DrawingContext& context, const PanelPlace& place)
-      : meeting_(first_meeting(*context.bodies, span_of(context.scene, *context.bodies))),
+      : meeting_(first_meeting(context)),
         diagram_(context, place, titles(context)),
         axis_(context, diagram_, 0) {
-    const BodySystem& system = context.bodies->system();
+    const BodySystem& system = context.bodies.system;
     const double reach =
         to_double(system.bodies[meeting_.first].size + system.bodies[meeting_.second].size);
     contact_ = reach * reach;
@@ -78,7 +80,7 @@ class SeparationPanel {
     top_ = std::clamp(1.15 * begin, 2.5 * contact_, 5 * contact_);
     add_level();
     add_parabola();
-    add_path(*context.bodies);
+    add_path(context.log);
     add_touches(context.font);
     axis_.add_base(diagram_);
     diagram_.finish();
@@ -88,7 +90,7 @@ class SeparationPanel {
     items.emplace_back(diagram_.item());
     const double time = to_double(shown.time);
     if (!axis_.shows(time)) return;
-    const double square = square_of(shown.bodies);
+    const double square = square_of(shown.state.bodies);
     const Point at = place_of(time, std::min(square, top_));
     items.emplace_back(axis_.cursor(diagram_, 0, at));
     if (square <= top_) items.emplace_back(diagram_.present_dot(1, at));
@@ -148,7 +150,7 @@ class SeparationPanel {
   }
 
   /// The distance as it is.
-  void add_path(const BodyLog& log) {
+  void add_path(const SceneLog& log) {
     const double from = to_double(axis_.span().from);
     const double to = to_double(axis_.span().to);
     const auto add = [&](std::vector<Point> points) {
