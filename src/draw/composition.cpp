@@ -6,21 +6,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "draw/bodies/body_stage.hpp"
 #include "draw/extent.hpp"
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/counter.hpp"
-#include "draw/overlays/hits.hpp"
 #include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/stage/hits.hpp"
+#include "draw/stage/stage.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -46,15 +47,17 @@ class Composer {
  public:
   Composer(const Scene& scene, const SceneLog& log, FrameNeeds& needs)
       : scene_(scene),
-        is_article_(log.two_blocks() != nullptr && scene.view.theme == Theme::article),
         bodies_(bodies_of(scene)),
+        is_article_(scene.view.theme == Theme::article && bodies_.system.dimensions == 1),
         palette_(log.two_blocks() != nullptr ? palette_of(scene.view.theme, scene.system)
                                              : palette_of(scene.view.theme)),
+        colors_(colors_of(bodies_, scene.view.theme, palette_)),
         sizes_(scene.view),
         context_{.scene = scene,
                  .bodies = bodies_,
                  .log = log,
                  .palette = palette_,
+                 .colors = colors_,
                  .fonts = fonts_,
                  .font = fonts_.of(text_face_of(scene.view.theme)),
                  .layout = layout_,
@@ -65,16 +68,9 @@ class Composer {
         plan_(plan_frame(context_, counter_room_beside_read_outs(), read_outs_.height())) {}
 
   std::vector<Drawable> run(std::shared_ptr<const Image> logo) {
-    const bool has_blocks = context_.log.two_blocks() != nullptr;
-    if (has_blocks) layout_ = lay_out();
+    layout_ = lay_out();
     loupe_ = LoupeInset::make(context_, plan_);
-    if (has_blocks) {
-      add_stage();
-      add_overlays();
-    } else {
-      drawables_.push_back(body_stage(context_, plan_.stage));
-      drawables_.push_back(counter(context_, plan_.counter, pi_));
-    }
+    add_stage();
     add_read_outs();
     add_loupe();
     add_lines(std::move(logo));
@@ -91,14 +87,19 @@ class Composer {
   }
 
   Layout lay_out() const {
-    if (!is_article_) {
-      return lay_out_stage(scene_, plan_.stage, context_.font, plan_.is_floor_at_bottom);
-    }
-    return lay_out_article(scene_, longest_count(scene_, context_.log), plan_.stage, context_.font);
+    if (!is_article_) return lay_out_stage(context_, plan_.stage, plan_.is_floor_at_bottom);
+    return lay_out_article(context_, longest_count(scene_, context_.log), plan_.stage);
   }
 
-  /// Wall, floor, blocks and count.
+  /// Walls, floor and bodies, what is over them, and the count.
   void add_stage() {
+    if (context_.is_plane()) {
+      std::vector<Drawable> inside = overlays();
+      inside.insert(inside.begin(), stage(context_, {}));
+      drawables_.push_back(window(std::move(inside)));
+      drawables_.push_back(counter(context_, plan_.counter, pi_));
+      return;
+    }
     Drawable behind;
     if (loupe_) {
       behind = [loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
@@ -111,14 +112,30 @@ class Composer {
       drawables_.push_back(stage(context_, std::move(behind)));
       drawables_.push_back(counter(context_, plan_.counter, pi_));
     }
+    std::ranges::move(overlays(), std::back_inserter(drawables_));
+    if (scene_.show.has(Overlay::ruler)) drawables_.push_back(ruler(context_));
   }
 
-  void add_overlays() {
+  /// What is over the bodies.
+  std::vector<Drawable> overlays() const {
     const Show& show = scene_.show;
-    if (show.has(Overlay::masses)) drawables_.push_back(mass_labels(context_));
-    if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context_));
-    if (show.hits && !is_article_) drawables_.push_back(hit_marks(context_));
-    if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context_));
+    std::vector<Drawable> made;
+    if (has_labels(context_)) made.push_back(body_labels(context_));
+    if (show.has(Overlay::velocities)) made.push_back(velocity_arrows(context_));
+    if (show.hits && scene_.view.theme != Theme::article) made.push_back(hit_marks(context_));
+    return made;
+  }
+
+  /// Discs that leave what is shown are cut off at its edge, so that they hide no text.
+  Drawable window(std::vector<Drawable> inside) const {
+    return [inside = std::move(inside), bounds = layout_.window,
+            background = background_of(scene_.view)](const FrameState& shown,
+                                                     std::vector<DrawItem>& items) {
+      DrawList list{int(bounds.width), int(bounds.height), background, {}};
+      for (const Drawable& drawable : inside) drawable(shown, list.items);
+      items.emplace_back(
+          GroupItem{ItemId::wall, bounds, std::make_shared<const DrawList>(std::move(list))});
+    };
   }
 
   void add_read_outs() {
@@ -161,10 +178,11 @@ class Composer {
   }
 
   const Scene& scene_;
-  bool is_article_;
   Bodies bodies_;
+  bool is_article_;
   Fonts fonts_;
   Palette palette_;
+  std::vector<BlockColors> colors_;  ///< of the bodies
   Sizes sizes_;
   Layout layout_;  ///< made by run(): what else there is decides it
   DrawingContext context_;

@@ -33,12 +33,14 @@ inline constexpr double kHitLife_s = 0.15;
 /// Most collisions per second of video that are listed as hits.
 inline constexpr int kMaxHitsPerSecond = 8;
 
+/// Places of two bodies in BodySystem; or of a body, and the number of bodies plus the place of a
+/// wall.
+using MetPair = std::array<std::uint32_t, 2>;
+
 /// A collision that the picture has just passed.
 struct Hit {
   Integer index;
-  /// Places of two bodies; or of a body, and the number of bodies plus the place of a wall.
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
+  MetPair pair = {};
   std::array<double, 2> contact = {};  ///< where their surfaces met, in the scene
   double age_s = 0;  ///< of video since the picture passed it, 0 <= age_s < kHitLife_s
   /// Then, of two blocks beside a wall; if the blocks met, y1 = y2 is where, seen from the wall.
@@ -69,6 +71,7 @@ struct FrameState {
   double video_s = 0;          ///< of the frame, since its scene began
   std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHitsPerSecond
   double hits_per_s = 0;       ///< of video, lately; 0 while the picture stands still
+  std::vector<MetPair> met_pairs = {};  ///< lately, if hits_per_s is above kMaxHitsPerSecond
 };
 
 /// The costly parts of a FrameState. They are computed only for drawables that read them.

@@ -12,8 +12,8 @@
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/overlays/loupe.hpp"
-#include "draw/overlays/overlays.hpp"
 #include "draw/panel_grid.hpp"
+#include "draw/stage/stage.hpp"
 #include "draw/text_lines.hpp"
 
 namespace piblocks {
@@ -245,8 +245,7 @@ class FramePlanner {
     place.slow_motion = {left, place.pi_baseline_px};
     if (counter_->slow_motion_px > 0) left -= counter_->slow_motion_px + sizes_.gap;
     // Blocks that stay left of this line may be beside it.
-    const bool is_above = left < right_ && (context_.log.two_blocks() == nullptr ||
-                                            reach_px(context_.scene, context_.two_blocks()) > left);
+    const bool is_above = left < right_ && reach_px(context_) > left;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
     place.pi_row_left_px = std::min(right_, left + sizes_.gap);

@@ -122,10 +122,26 @@ std::array<double, 2> contact_of(const BodySystem& system, const BodyCollision& 
 Hit hit_of(const SceneLog& log, const AgedCollision& aged) {
   const BodyCollision& collision = aged.collision;
   const CollisionLog* const blocks = log.two_blocks();
-  return {
-      collision.index,  collision.first,
-      collision.second, contact_of(log.system(), collision),
-      aged.age_s,       blocks != nullptr ? gaps_at_collision(*blocks, collision.index) : Gaps{}};
+  return {collision.index,
+          {collision.first, collision.second},
+          contact_of(log.system(), collision),
+          aged.age_s,
+          blocks != nullptr ? gaps_at_collision(*blocks, collision.index) : Gaps{}};
+}
+
+/// The pairs of the newest collisions, each once. @param passed  how many there are
+std::vector<MetPair> pairs_of(const SceneLog& log, const Integer& newest, const Integer& passed) {
+  constexpr std::size_t kMostPairs = 64;
+  // Few pairs take turns.
+  const std::size_t most = std::min(kMostPairs, 2 * log.system().bodies.size());
+  std::vector<MetPair> pairs;
+  Integer index = newest;
+  for (std::size_t n = 0; n < most && n < passed && index >= log->first_index(); ++n, --index) {
+    const BodyCollision collision = log.collision(index);
+    const MetPair pair{collision.first, collision.second};
+    if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
+  }
+  return pairs;
 }
 
 bool is_moving(const VideoTime& video_time) {
@@ -178,7 +194,10 @@ void add_hits(FrameState& state, const SceneLog& log, const VideoTime& video_tim
     if (found.size() == kNewest) rate = rate_of(found);
   }
   if (is_moving(video_time)) state.hits_per_s = rate;
-  if (rate > kMaxHitsPerSecond) return;
+  if (rate > kMaxHitsPerSecond) {
+    state.met_pairs = pairs_of(log, state.state.count, std::max(count, Integer(found.size())));
+    return;
+  }
   for (auto aged = found.rbegin(); aged != found.rend(); ++aged) {
     if (aged->age_s < kHitLife_s) state.hits.push_back(hit_of(log, *aged));
   }

@@ -100,9 +100,9 @@ void expect_hits(const FrameState& state, const std::vector<Pass>& wanted,
     const Hit& hit = state.hits[i];
     const Collision& collision = wanted[i].collision;
     EXPECT_EQ(hit.index, collision.index);
-    EXPECT_EQ(hit.first, 0U);
+    EXPECT_EQ(hit.pair[0], 0U);
     const bool is_wall = collision.kind == CollisionKind::wall;
-    EXPECT_EQ(hit.second, is_wall ? 2U : 1U);
+    EXPECT_EQ(hit.pair[1], is_wall ? 2U : 1U);
     EXPECT_NEAR(hit.age_s, to_double(video_s - wanted[i].video_s), 1e-12);
     EXPECT_GE(hit.age_s, 0);
     EXPECT_LT(hit.age_s, kHitLife_s);

@@ -10,7 +10,7 @@
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
-#include "draw/overlays/stage_parts.hpp"
+#include "draw/stage/stage.hpp"
 #include "scene/pacing.hpp"
 
 namespace piblocks {
@@ -25,6 +25,10 @@ constexpr const char* kLoupeKey = "show.loupe";
 constexpr long kMostPower = 300;
 /// Heights of the blocks in the inset differ by this factor at most.
 constexpr double kMaxInsetHeightRatio = 1.6;
+
+bool shows_wall(const DrawingContext& context) {
+  return seen_walls(context.bodies.system, context.scene.view).left.has_value();
+}
 
 std::optional<Loupe> loupe_of(const Scene& scene) {
   Loupe loupe = scene.show.loupe.value_or(Loupe{.is_on = is_lecture(scene.view.theme)});
@@ -93,7 +97,7 @@ void check_is_seen(const DrawingContext& context, const Span& window) {
 bool may_show_loupe(const DrawingContext& context) {
   const View& view = context.scene.view;
   if (context.log.two_blocks() == nullptr) return false;
-  if (!shows_wall(context.scene) || !loupe_of(context.scene)) return false;
+  if (!shows_wall(context) || !loupe_of(context.scene)) return false;
   // The stage's scale is known only once there is a stage. It is not larger.
   const double scale =
       view.width_px / to_double(view.x.high - context.two_blocks().system().wall_face);
@@ -107,7 +111,7 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   if (!loupe || context.log.two_blocks() == nullptr) return nullptr;
   const bool is_asked_for = loupe->window.has_value();
   const double gap_px = least_gap(context) * context.layout.scale;
-  if (!shows_wall(scene)) {
+  if (!shows_wall(context)) {
     if (!is_asked_for) return nullptr;
     throw UsageError(
         "show.loupe: the loupe enlarges the gap at the wall, and the view does not show the wall; "
@@ -173,16 +177,16 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   face_px_ = std::round(sizes_.grid_line + (loupe_style::kInside + style::kWallWidth) * short_side);
   blue_width_px_ = std::round(kBlueWidth * short_side);
   room_px_ = bounds_.width - face_px_ - blue_width_px_ - kLeastRed * short_side;
-  const double floor_px = std::round(bounds_.height - loupe_style::kBelowFloor * short_side);
+  floor_px_ = std::round(bounds_.height - loupe_style::kBelowFloor * short_side);
   const double room =
-      floor_px - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
+      floor_px_ - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
   const double taller = std::round(std::min(kBlocksHeight * short_side, room));
-  const double ratio = std::clamp(layout.red.height_px / layout.blue.height_px,
+  const double ratio = std::clamp(layout.height_px(1) / layout.height_px(0),
                                   1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
-  dimensions_ = {floor_px, std::round(taller / std::max(1.0, ratio)),
-                 std::round(taller * std::min(1.0, ratio)), HUGE_VAL};
+  blue_height_px_ = std::round(taller / std::max(1.0, ratio));
+  red_height_px_ = std::round(taller * std::min(1.0, ratio));
   if (context.scene.show.hits && context.scene.view.theme != Theme::article) {
-    marks_.emplace(context, dimensions_, HUGE_VAL);
+    marks_.emplace(context, HUGE_VAL, HUGE_VAL);
   }
 
   const double baseline = loupe_style::kInside * short_side + sizes_.text;
@@ -203,19 +207,19 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
     lines_y_ = bottom + loupe_style::kOutside * short_side;  // above all that is above red
   } else {
     corners_ = {Point{bounds_.x, bounds_.y}, Point{bounds_.x, bottom}};
-    lines_y_ = layout.floor_px - layout.blue.height_px / 2;
+    lines_y_ = layout.floor_px - layout.height_px(0) / 2;
   }
   place_scenery(context);
 }
 
 void LoupeInset::place_scenery(const DrawingContext& context) {
   const double line = sizes_.wall_line;
-  const double top = dimensions_.floor_px -
-                     std::max(dimensions_.blue_height_px, dimensions_.red_height_px) -
+  const double top = floor_px_ - std::max(blue_height_px_, red_height_px_) -
                      loupe_style::kAboveBlocks / 2 * sizes_.short_side;
-  std::vector<DrawItem> items = wall_items({face_px_, top, dimensions_.floor_px + line}, context);
+  std::vector<DrawItem> items =
+      hatched_wall({face_px_, top}, {face_px_, floor_px_ + line}, context);
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
-                                   {face_px_ - line, dimensions_.floor_px, bounds_.width, line},
+                                   {face_px_ - line, floor_px_, bounds_.width, line},
                                    palette_.wall,
                                    std::nullopt});
   scenery_ = plate_of(ItemId::wall, {0, 0, bounds_.width, bounds_.height}, std::move(items));

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/bodies/body_look.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
 namespace {
 
 /// A path of more corners than this for each column of pixels is sampled once a column.
-constexpr std::size_t kMostCorners = 4;
+constexpr std::size_t kCornersPerColumn = 4;
 
 /// A place of a body's centre.
 struct Corner {
@@ -28,9 +27,8 @@ class PositionsPanel {
     const BodySystem& system = context.bodies.system;
     const std::vector<std::vector<Corner>> paths = paths_of(context.log);
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      const Color color = body_colors(context, i).fill;
       half_widths_.push_back(to_double(system.bodies[i].size) / 2);
-      add_band(paths[i], half_widths_.back(), color);
+      add_band(paths[i], half_widths_.back(), context.colors[i]);
     }
     for (const Wall& wall : system.walls) {
       const double y = y_of(to_double(wall.point[0]));
@@ -81,7 +79,7 @@ class PositionsPanel {
       }
     };
     add(span.from, first);
-    if (collisions > Integer(kMostCorners * columns * bodies)) {
+    if (collisions > Integer(kCornersPerColumn * columns * bodies)) {
       for (std::size_t column = 1; column < columns; ++column) {
         const Rational time = span.from + (span.to - span.from) * Rational(column, columns);
         add(time, log.state_at(time));
@@ -99,11 +97,11 @@ class PositionsPanel {
     return paths;
   }
 
-  void add_band(const std::vector<Corner>& path, double half_width, const Color& color) {
+  void add_band(const std::vector<Corner>& path, double half_width, const BlockColors& colors) {
     std::vector<Point> outline = edge(path, half_width);
     const std::vector<Point> lower = edge(path, -half_width);
     outline.insert(outline.end(), lower.rbegin(), lower.rend());
-    diagram_.shape(std::move(outline), color);
+    diagram_.shape(std::move(outline), colors.fill, colors.edge);
   }
 
   /// An edge of a band, with a corner wherever it leaves the diagram.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/bodies/body_look.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
