@@ -214,31 +214,82 @@ ReadOut fitted(const DrawingContext& context,
   }
 }
 
-/// Sums over all bodies. Elastic collisions keep the energy; walls take momentum.
-ReadOut sums_read_out(const DrawingContext& context, Overlay overlay) {
-  const Bodies& bodies = context.bodies;
-  std::vector<double> masses;
-  for (const Body& body : bodies.system.bodies) {
-    masses.push_back(body.mass ? to_double(*body.mass) : 0);
-  }
-  const bool is_plane = bodies.system.dimensions == 2;
-  const auto text = [=](const std::vector<BodyMotion>& motions) {
-    double energy = 0;
-    std::array<double, 2> momentum = {};
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      const auto& [x, y] = motions[i].velocity;
-      energy += masses[i] * (x * x + y * y) / 2;
-      momentum[0] += masses[i] * x;
-      momentum[1] += masses[i] * y;
+/// The sum over all bodies, which never changes.
+ReadOut energy_sum_read_out(const DrawingContext& context) {
+  const std::string text =
+      fmt::format("Energy {}", short_text(Rational(twice_energy(context.bodies.system) / 2)));
+  return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};
+}
+
+/// One coordinate of the sum of all momenta.
+class MomentumSum {
+ public:
+  MomentumSum(const BodySystem& system, std::size_t axis, int digits)
+      : axis_(axis), is_kept_(is_kept(system, axis)) {
+    Rational masses = 0;
+    Rational sum = 0;
+    for (const Body& body : system.bodies) {
+      if (!body.mass) continue;
+      masses += *body.mass;
+      sum += *body.mass * body.velocity.at(axis);
     }
-    const auto number = [](double value) { return short_text(value); };
-    if (overlay == Overlay::energy) return fmt::format("Energy {}", number(energy));
-    if (!is_plane) return fmt::format("Momentum {}", number(momentum[0]));
-    return fmt::format("Momentum ({}, {})", number(momentum[0]), number(momentum[1]));
+    widest_ = short_text(sum);
+    if (is_kept_) return;
+    // It is largest when all bodies have one velocity.
+    const Scale scale(root_magnitude_of(twice_energy(system) * masses), digits);
+    const Rational unit = scale.is_plain ? Rational(1) : power_of_ten(scale.largest.exponent);
+    for (const Body& body : system.bodies) {
+      factors_.emplace_back(body.mass ? mpf_class(*body.mass / unit) : mpf_class(0));
+    }
+    widest_ = scale.text(-scale.largest.mantissa *
+                         (scale.is_plain ? to_double(power_of_ten(scale.largest.exponent)) : 1)) +
+              scale.unit;
+    scale_ = scale;
+  }
+
+  const std::string& widest() const { return widest_; }
+  std::string text(const std::vector<BodyMotion>& bodies) const {
+    if (is_kept_) return widest_;
+    mpf_class sum = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      sum += factors_[i] * bodies[i].velocity.at(axis_);
+    return scale_->text(sum.get_d()) + scale_->unit;
+  }
+
+ private:
+  /// Whether nothing takes any of it.
+  static bool is_kept(const BodySystem& system, std::size_t axis) {
+    return std::ranges::all_of(system.bodies, [](const Body& body) { return bool(body.mass); }) &&
+           std::ranges::all_of(system.walls,
+                               [=](const Wall& wall) { return wall.normal.at(axis) == 0; });
+  }
+
+  std::size_t axis_;
+  bool is_kept_;
+  std::string widest_;  ///< the sum itself if it is kept
+  std::optional<Scale> scale_;
+  std::vector<mpf_class> factors_;  ///< from the velocity of a body
+};
+
+/// The sum over all bodies. Walls and fixed bodies take some of it.
+ReadOut momentum_sum_read_out(const DrawingContext& context) {
+  constexpr int kDigits = 4;
+  const BodySystem& system = context.bodies.system;
+  const auto text = [](const std::string& x, const std::string& y) {
+    return y.empty() ? fmt::format("Momentum {}", x) : fmt::format("Momentum ({}, {})", x, y);
   };
-  return {"energy",
-          overlay == Overlay::energy ? "Energy −8.8888e+88" : "Momentum (−8.8888e+88, −8.8888e+88)",
-          [=](const FrameState& shown) { return text(shown.state.bodies); }, context.palette.text};
+  const MomentumSum x(system, 0, kDigits);
+  if (!context.is_plane()) {
+    return {"momentum", text(x.widest(), ""),
+            [=](const FrameState& shown) { return text(x.text(shown.state.bodies), ""); },
+            context.palette.text};
+  }
+  const MomentumSum y(system, 1, kDigits);
+  return {"momentum", text(x.widest(), y.widest()),
+          [=](const FrameState& shown) {
+            return text(x.text(shown.state.bodies), y.text(shown.state.bodies));
+          },
+          context.palette.text};
 }
 
 /// From which time on the picture may be wrong.
@@ -251,28 +302,24 @@ ReadOut certainty_read_out(const DrawingContext& context, double until) {
           context.palette.accent};
 }
 
-std::vector<ReadOut> read_outs_of_bodies(const DrawingContext& context) {
+std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
   const Show& show = context.scene.show;
+  // Each block's share has a name in the picture.
+  const bool has_names = context.log.two_blocks() != nullptr;
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
   if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
-  for (const Overlay overlay : {Overlay::energy, Overlay::momentum}) {
-    if (show.has(overlay)) read_outs.push_back(sums_read_out(context, overlay));
+  if (show.has(Overlay::energy)) {
+    read_outs.push_back(has_names ? fitted(context, energy_read_out)
+                                  : energy_sum_read_out(context));
+  }
+  if (show.has(Overlay::momentum)) {
+    read_outs.push_back(has_names ? fitted(context, momentum_read_out)
+                                  : momentum_sum_read_out(context));
   }
   if (const std::optional<double> until = context.log.certain_until()) {
     read_outs.push_back(certainty_read_out(context, *until));
   }
-  return read_outs;
-}
-
-std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
-  if (context.scene.bodies) return read_outs_of_bodies(context);
-  const Show& show = context.scene.show;
-  std::vector<ReadOut> read_outs;
-  if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
-  if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
-  if (show.has(Overlay::energy)) read_outs.push_back(fitted(context, energy_read_out));
-  if (show.has(Overlay::momentum)) read_outs.push_back(fitted(context, momentum_read_out));
   return read_outs;
 }
 

@@ -40,6 +40,7 @@ std::vector<Point> corners_of(const Rectangle& box) {
 }
 
 bool shows_a_turn(const DrawingContext& context) {
+  if (context.log.two_blocks() == nullptr) return false;
   const Span span = span_of(context.scene, context.log);
   const BlockState first = context.two_blocks().state_at(span.from);
   const BlockState last = context.two_blocks().state_at(span.to);
