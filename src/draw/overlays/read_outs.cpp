@@ -2,8 +2,12 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
@@ -148,6 +152,9 @@ struct Scale {
   std::string unit;
 };
 
+/// Whether there is a word for each body, so that its share of a sum can be shown.
+bool has_names(const DrawingContext& context) { return context.log.two_blocks() != nullptr; }
+
 ReadOut energy_read_out(const DrawingContext& context, int digits) {
   const BlockSystem& system = context.two_blocks().system();
   const Rational exact_sum = twice_energy(system) / 2;
@@ -174,30 +181,97 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
   return {"energy", text(sum, sum, sum), shown_text, context.palette.text};
 }
 
+/// The momenta of bodies, and their sum. Walls and fixed bodies take some of it.
+class Momenta {
+ public:
+  Momenta(const DrawingContext& context, int digits)
+      : system_(context.bodies.system),
+        // The heaviest body has the most momentum when it has all the energy.
+        most_squared_(twice_energy(system_) * heaviest(system_)),
+        scale_(root_magnitude_of(most_squared_), digits),
+        most_(scale_.largest.mantissa *
+              (scale_.is_plain ? to_double(power_of_ten(scale_.largest.exponent)) : 1)) {
+    if (has_names(context)) names_ = {context.palette.blue.name, context.palette.red.name};
+    for (const Body& body : system_.bodies) factors_.push_back(factor_of(body.mass.value_or(0)));
+    for (const std::size_t axis : {0U, 1U}) {
+      if (!is_kept(axis)) continue;
+      kept_.at(axis) = sum_of(
+          axis, [&](std::size_t i) { return to_double(system_.bodies[i].velocity.at(axis)); });
+    }
+  }
+
+  std::string widest() const { return text({-most_, -most_}, {-most_, -most_}); }
+
+  std::string operator()(const FrameState& shown) const {
+    const std::vector<BodyMotion>& bodies = shown.state.bodies;
+    std::vector<double> each;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      each.push_back(mpf_class(factors_[i] * bodies[i].velocity[0]).get_d());
+    }
+    std::array<double, 2> sum{};
+    for (const std::size_t axis : {0U, 1U}) {
+      const auto velocity = [&](std::size_t i) { return bodies[i].velocity.at(axis); };
+      sum.at(axis) = kept_.at(axis) ? *kept_.at(axis) : sum_of(axis, velocity);
+    }
+    return text(each, sum);
+  }
+
+ private:
+  static Rational heaviest(const BodySystem& system) {
+    Rational most = 0;
+    for (const Body& body : system.bodies) most = std::max(most, body.mass.value_or(0));
+    return most;
+  }
+
+  /// Masses may be beyond the range of a double, and so may these factors.
+  mpf_class factor_of(const Rational& mass) const {
+    if (most_squared_ == 0) return 0;
+    return most_ * root_of(mass * mass / most_squared_);
+  }
+
+  /// Whether nothing takes any of it.
+  bool is_kept(std::size_t axis) const {
+    return std::ranges::all_of(system_.bodies, [](const Body& body) { return bool(body.mass); }) &&
+           std::ranges::all_of(system_.walls,
+                               [=](const Wall& wall) { return wall.normal.at(axis) == 0; });
+  }
+
+  /// From the last body to the first.
+  double sum_of(std::size_t axis, const auto& velocity) const {
+    if (axis == 1 && system_.dimensions == 1) return 0;
+    double sum = 0;
+    for (std::size_t i = factors_.size(); i-- > 0;) {
+      sum += mpf_class(factors_[i] * velocity(i)).get_d();
+    }
+    return sum;
+  }
+
+  std::string text(const std::vector<double>& each, const std::array<double, 2>& sum) const {
+    if (!names_.empty()) {
+      return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale_.unit, names_[1],
+                         scale_.text(each[1]), names_[0], scale_.text(each[0]),
+                         scale_.text(sum[0]));
+    }
+    if (system_.dimensions == 1) {
+      return fmt::format("Momentum{} {}", scale_.unit, scale_.text(sum[0]));
+    }
+    return fmt::format("Momentum{} ({}, {})", scale_.unit, scale_.text(sum[0]),
+                       scale_.text(sum[1]));
+  }
+
+  BodySystem system_;
+  Rational most_squared_;
+  Scale scale_;
+  double most_;
+  std::vector<const char*> names_;  ///< of the bodies if the momentum of each is shown
+  std::vector<mpf_class> factors_;  ///< from a velocity to a momentum
+  std::array<std::optional<double>, 2> kept_;
+};
+
 ReadOut momentum_read_out(const DrawingContext& context, int digits) {
-  const BlockSystem& system = context.two_blocks().system();
-  // The heavier block has the most momentum when it has all the energy.
-  const Rational most_squared = twice_energy(system) * std::max(system.blue.mass, system.red.mass);
-  const Scale scale(root_magnitude_of(most_squared), digits);
-  const auto text = [scale, red_name = context.palette.red.name,
-                     blue_name = context.palette.blue.name](double red, double blue) {
-    return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale.unit, red_name, scale.text(red),
-                       blue_name, scale.text(blue), scale.text(red + blue));
-  };
-  const double most = scale.largest.mantissa *
-                      (scale.is_plain ? to_double(power_of_ten(scale.largest.exponent)) : 1);
-  // Masses may be beyond the range of a double, and so may these factors.
-  const auto momentum_per_velocity = [&](const Block& block) -> mpf_class {
-    if (most_squared == 0) return 0;
-    return most * root_of(block.mass * block.mass / most_squared);
-  };
-  const auto shown_text = [text, red_factor = momentum_per_velocity(system.red),
-                           blue_factor =
-                               momentum_per_velocity(system.blue)](const FrameState& shown) {
-    return text(mpf_class(red_factor * shown.state.bodies[1].velocity[0]).get_d(),
-                mpf_class(blue_factor * shown.state.bodies[0].velocity[0]).get_d());
-  };
-  return {"momentum", text(-most, -most), shown_text, context.palette.text};
+  Momenta momenta(context, digits);
+  std::string widest = momenta.widest();
+  return {"momentum", std::move(widest), std::move(momenta), context.palette.text};
 }
 
 double room_for_read_outs(const DrawingContext& context) {
@@ -221,77 +295,6 @@ ReadOut energy_sum_read_out(const DrawingContext& context) {
   return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};
 }
 
-/// One coordinate of the sum of all momenta.
-class MomentumSum {
- public:
-  MomentumSum(const BodySystem& system, std::size_t axis, int digits)
-      : axis_(axis), is_kept_(is_kept(system, axis)) {
-    Rational masses = 0;
-    Rational sum = 0;
-    for (const Body& body : system.bodies) {
-      if (!body.mass) continue;
-      masses += *body.mass;
-      sum += *body.mass * body.velocity.at(axis);
-    }
-    widest_ = short_text(sum);
-    if (is_kept_) return;
-    // It is largest when all bodies have one velocity.
-    const Scale scale(root_magnitude_of(twice_energy(system) * masses), digits);
-    const Rational unit = scale.is_plain ? Rational(1) : power_of_ten(scale.largest.exponent);
-    for (const Body& body : system.bodies) {
-      factors_.emplace_back(body.mass ? mpf_class(*body.mass / unit) : mpf_class(0));
-    }
-    widest_ = scale.text(-scale.largest.mantissa *
-                         (scale.is_plain ? to_double(power_of_ten(scale.largest.exponent)) : 1)) +
-              scale.unit;
-    scale_ = scale;
-  }
-
-  const std::string& widest() const { return widest_; }
-  std::string text(const std::vector<BodyMotion>& bodies) const {
-    if (is_kept_) return widest_;
-    mpf_class sum = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      sum += factors_[i] * bodies[i].velocity.at(axis_);
-    return scale_->text(sum.get_d()) + scale_->unit;
-  }
-
- private:
-  /// Whether nothing takes any of it.
-  static bool is_kept(const BodySystem& system, std::size_t axis) {
-    return std::ranges::all_of(system.bodies, [](const Body& body) { return bool(body.mass); }) &&
-           std::ranges::all_of(system.walls,
-                               [=](const Wall& wall) { return wall.normal.at(axis) == 0; });
-  }
-
-  std::size_t axis_;
-  bool is_kept_;
-  std::string widest_;  ///< the sum itself if it is kept
-  std::optional<Scale> scale_;
-  std::vector<mpf_class> factors_;  ///< from the velocity of a body
-};
-
-/// The sum over all bodies. Walls and fixed bodies take some of it.
-ReadOut momentum_sum_read_out(const DrawingContext& context) {
-  constexpr int kDigits = 4;
-  const BodySystem& system = context.bodies.system;
-  const auto text = [](const std::string& x, const std::string& y) {
-    return y.empty() ? fmt::format("Momentum {}", x) : fmt::format("Momentum ({}, {})", x, y);
-  };
-  const MomentumSum x(system, 0, kDigits);
-  if (!context.is_plane()) {
-    return {"momentum", text(x.widest(), ""),
-            [=](const FrameState& shown) { return text(x.text(shown.state.bodies), ""); },
-            context.palette.text};
-  }
-  const MomentumSum y(system, 1, kDigits);
-  return {"momentum", text(x.widest(), y.widest()),
-          [=](const FrameState& shown) {
-            return text(x.text(shown.state.bodies), y.text(shown.state.bodies));
-          },
-          context.palette.text};
-}
-
 /// From which time on the picture may be wrong.
 ReadOut certainty_read_out(const DrawingContext& context, double until) {
   const std::string text = fmt::format("not certain from t = {:.4g} on", until);
@@ -304,18 +307,17 @@ ReadOut certainty_read_out(const DrawingContext& context, double until) {
 
 std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
   const Show& show = context.scene.show;
-  // Each block's share has a name in the picture.
-  const bool has_names = context.log.two_blocks() != nullptr;
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
   if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
   if (show.has(Overlay::energy)) {
-    read_outs.push_back(has_names ? fitted(context, energy_read_out)
-                                  : energy_sum_read_out(context));
+    read_outs.push_back(has_names(context) ? fitted(context, energy_read_out)
+                                           : energy_sum_read_out(context));
   }
   if (show.has(Overlay::momentum)) {
-    read_outs.push_back(has_names ? fitted(context, momentum_read_out)
-                                  : momentum_sum_read_out(context));
+    constexpr int kDigitsOfSum = 4;
+    read_outs.push_back(has_names(context) ? fitted(context, momentum_read_out)
+                                           : momentum_read_out(context, kDigitsOfSum));
   }
   if (const std::optional<double> until = context.log.certain_until()) {
     read_outs.push_back(certainty_read_out(context, *until));

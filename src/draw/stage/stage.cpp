@@ -14,6 +14,8 @@ namespace {
 constexpr double kBarSpacing = 0.1;
 /// Above the ids of a block's bars.
 constexpr std::size_t kCover = 1000;
+/// Above the ids of discs.
+constexpr std::size_t kExposed = 65535;
 /// Above the ids of walls.
 constexpr std::size_t kTrails = 2000;
 constexpr double kTrailOpacity = 0.45;
@@ -22,7 +24,7 @@ constexpr int kTrail_s = 2;
 /// A disc whose radius is less than so many widths of its rim has none.
 constexpr double kLeastRim = 4;
 
-/// A body's id, from the last body to the first, which is in front. It leaves room for bars.
+/// A block's id, from the last block to the first, which is in front. It leaves room for bars.
 ItemId id_of(std::size_t body, std::size_t count) {
   constexpr std::size_t kWithBars = 8;
   constexpr std::size_t kFewBodies = 100;
@@ -41,20 +43,17 @@ class Discs {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     add_trails(shown.trails, items);
-    const std::size_t count = shown.state.bodies.size();
-    ExposedDiscsItem exposed{nth(ItemId::blue_block, 1), {}};
-    for (std::size_t i = count; i-- > 0;) {
+    ExposedDiscsItem exposed{nth(ItemId::red_block, kExposed), {}};
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
       std::vector<DiscPath> paths = paths_of(i, shown.body_exposure);
       if (paths.empty()) {
-        items.emplace_back(disc_of(i, id_of(i, count), shown.state.bodies[i].position));
+        items.emplace_back(disc_of(i, shown.state.bodies[i].position));
       } else {
         exposed.discs.push_back(
             {radius_px(i), rim_px(i), colors_[i].fill, colors_[i].edge, std::move(paths)});
       }
     }
-    if (exposed.discs.empty()) return;
-    std::ranges::reverse(exposed.discs);
-    items.emplace_back(std::move(exposed));
+    if (!exposed.discs.empty()) items.emplace_back(std::move(exposed));
   }
 
  private:
@@ -81,7 +80,8 @@ class Discs {
     }
   }
 
-  DiscItem disc_of(std::size_t body, ItemId id, const std::array<double, 2>& position) const {
+  DiscItem disc_of(std::size_t body, const std::array<double, 2>& position) const {
+    const ItemId id = nth(ItemId::red_block, body);
     const Point centre = layout_.at(position);
     const double rim = rim_px(body);
     if (rim == 0) return {id, centre, radius_px(body), colors_[body].fill, std::nullopt};
