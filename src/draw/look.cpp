@@ -129,9 +129,12 @@ constexpr Palette kColorblind = {
     .shade = {160, 184, 200},
 };
 
-/// Relative luminance (WCAG 2.1), with a power of 2 in place of the sRGB curve.
+/// Relative luminance (WCAG 2.1), to a twentieth: the sRGB curve as a product.
 double luminance(const Color& color) {
-  const auto linear = [](int level) { return double(level * level) / (255.0 * 255.0); };
+  const auto linear = [](int level) {
+    const double value = level / 255.0;
+    return value * value * (0.8 + 0.2 * value);
+  };
   return 0.2126 * linear(color.red) + 0.7152 * linear(color.green) + 0.0722 * linear(color.blue);
 }
 
@@ -174,11 +177,14 @@ constexpr std::array<int, 6> kBars = {0, 4, 2, 0, 4, 2};
 /// What goes with a colour that is not of the palette.
 BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) {
   const bool is_dark = luminance(palette.background) < 0.2;
-  Color edge = mixed(fill, is_dark ? kWhite : kBlack, is_dark ? 0.5 : 0.375);
+  // Bars have the edge's colour.
+  const double share = is_dark ? 0.5 : palette.red.bars > 0 ? 0.7 : 0.375;
+  Color edge = mixed(fill, is_dark ? kWhite : kBlack, share);
   if (theme == Theme::print) edge = palette.wall;
   if (is_lecture(theme)) edge = fill;
-  const Color text = luminance(fill) < 0.25 ? kWhite : Color{12, 14, 18};
-  return {fill, edge, text, readable(fill, palette, 3.2), readable(fill, palette, 4.8), 0, ""};
+  const Color text = contrast(fill, kWhite) > contrast(fill, kBlack) ? kWhite : kBlack;
+  const Color line = readable(fill, palette, 3.2);
+  return {fill, readable(edge, palette, 3.2), text, line, readable(fill, palette, 4.8), 0, ""};
 }
 
 }  // namespace
