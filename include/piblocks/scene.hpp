@@ -89,7 +89,7 @@ struct Show {
   std::string caption = {};        ///< one line of UTF-8 below all
   std::string logo = {};           ///< a PNG file for the corner that is kept free for it
   int base = kUsualBase;           ///< of the counts in the picture, kMinBase … kMaxBase
-  bool hits = true;                ///< marks where blocks hit; none in Theme::article
+  bool hits = true;                ///< marks where bodies hit; none in Theme::article
   /// Nothing: on in the lecture themes, off in the others.
   std::optional<Loupe> loupe = {};
 

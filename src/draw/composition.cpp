@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,10 +17,11 @@
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/counter.hpp"
-#include "draw/overlays/hits.hpp"
 #include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/stage/hits.hpp"
+#include "draw/stage/stage.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -40,29 +42,28 @@ bool is_finite(const BodyMotion& motion) {
          std::ranges::all_of(motion.velocity, is_number);
 }
 
-bool is_finite(const Motion& motion) {
-  return std::isfinite(motion.position) && std::isfinite(motion.velocity);
-}
-
 /// Places all that a scene shows, and makes its drawables in the order of their ids.
 class Composer {
  public:
-  Composer(const Scene& scene, const CollisionLog& log, FrameNeeds& needs)
+  Composer(const Scene& scene, const Log& log, FrameNeeds& needs)
       : scene_(scene),
-        is_article_(scene.view.theme == Theme::article),
-        palette_(palette_of(scene.view.theme, scene.system)),
+        bodies_(bodies_of(scene)),
+        is_article_(scene.view.theme == Theme::article && bodies_.system.dimensions == 1),
+        palette_(log.pair() != nullptr ? palette_of(scene.view.theme, scene.system)
+                                             : palette_of(scene.view.theme)),
+        colors_(colors_of(bodies_, scene.view.theme, palette_)),
         sizes_(scene.view),
         context_{.scene = scene,
-                 .timeline = log,
-                 .blocks = &log,
-                 .bodies = nullptr,
+                 .bodies = bodies_,
+                 .log = log,
                  .palette = palette_,
+                 .colors = colors_,
                  .fonts = fonts_,
                  .font = fonts_.of(text_face_of(scene.view.theme)),
                  .layout = layout_,
                  .sizes = sizes_,
                  .needs = needs},
-        pi_(pi_count(scene, log)),
+        pi_(pi_count(context_)),
         read_outs_(context_),
         plan_(plan_frame(context_, counter_room_beside_read_outs(), read_outs_.height())) {}
 
@@ -70,7 +71,6 @@ class Composer {
     layout_ = lay_out();
     loupe_ = LoupeInset::make(context_, plan_);
     add_stage();
-    add_overlays();
     add_read_outs();
     add_loupe();
     add_lines(std::move(logo));
@@ -87,15 +87,19 @@ class Composer {
   }
 
   Layout lay_out() const {
-    if (!is_article_) {
-      return lay_out_stage(scene_, plan_.stage, context_.font, plan_.is_floor_at_bottom);
-    }
-    return lay_out_article(scene_, longest_count(scene_, context_.log()), plan_.stage,
-                           context_.font);
+    if (!is_article_) return lay_out_stage(context_, plan_.stage, plan_.is_floor_at_bottom);
+    return lay_out_article(context_, longest_count(scene_, context_.log), plan_.stage);
   }
 
-  /// Wall, floor, blocks and count.
+  /// Walls, floor and bodies, what is over them, and the count.
   void add_stage() {
+    if (context_.is_plane()) {
+      std::vector<Drawable> inside = overlays();
+      inside.insert(inside.begin(), stage(context_, {}));
+      drawables_.push_back(window(std::move(inside)));
+      drawables_.push_back(counter(context_, plan_.counter, pi_));
+      return;
+    }
     Drawable behind;
     if (loupe_) {
       behind = [loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
@@ -108,14 +112,30 @@ class Composer {
       drawables_.push_back(stage(context_, std::move(behind)));
       drawables_.push_back(counter(context_, plan_.counter, pi_));
     }
+    std::ranges::move(overlays(), std::back_inserter(drawables_));
+    if (scene_.show.has(Overlay::ruler)) drawables_.push_back(ruler(context_));
   }
 
-  void add_overlays() {
+  /// What is over the bodies.
+  std::vector<Drawable> overlays() const {
     const Show& show = scene_.show;
-    if (show.has(Overlay::masses)) drawables_.push_back(mass_labels(context_));
-    if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context_));
-    if (show.hits && !is_article_) drawables_.push_back(hit_marks(context_));
-    if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context_));
+    std::vector<Drawable> made;
+    if (has_labels(context_)) made.push_back(body_labels(context_));
+    if (show.has(Overlay::velocities)) made.push_back(velocity_arrows(context_));
+    if (show.hits && scene_.view.theme != Theme::article) made.push_back(hit_marks(context_));
+    return made;
+  }
+
+  /// Discs that leave what is shown are cut off at its edge, so that they hide no text.
+  Drawable window(std::vector<Drawable> inside) const {
+    return [inside = std::move(inside), bounds = layout_.window,
+            background = background_of(scene_.view)](const FrameState& shown,
+                                                     std::vector<DrawItem>& items) {
+      DrawList list{int(bounds.width), int(bounds.height), background, {}};
+      for (const Drawable& drawable : inside) drawable(shown, list.items);
+      items.emplace_back(
+          GroupItem{ItemId::wall, bounds, std::make_shared<const DrawList>(std::move(list))});
+    };
   }
 
   void add_read_outs() {
@@ -146,20 +166,35 @@ class Composer {
     // In the order of Panel.
     constexpr std::array kPanels = {velocity_panel, position_panel,     unfolded_panel,
                                     time_panel,     count_panel,        ellipse_panel,
-                                    mirrors_panel,  conservation_panel, certainty_panel};
+                                    mirrors_panel,  conservation_panel, certainty_panel,
+                                    speeds_panel,   separation_panel};
     const std::vector<Panel>& panels = scene_.show.panels;
     for (std::size_t i = 0; i < panels.size(); ++i) {
       const auto make_panel = kPanels.at(static_cast<std::size_t>(panels[i]));
+      check_has_blocks(panels[i]);
       const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                    ids_from(static_cast<std::uint32_t>(i))};
       drawables_.push_back(make_panel(context_, {plan_.panels[i], first_id, panels[i]}));
     }
   }
 
+  /// @throws UsageError if the diagram shows what only two blocks beside a wall have.
+  void check_has_blocks(Panel panel) const {
+    constexpr std::array kForAll = {Panel::time, Panel::count, Panel::conservation, Panel::speeds,
+                                    Panel::separation};
+    if (context_.pair() != nullptr || std::ranges::count(kForAll, panel) > 0) return;
+    throw UsageError(
+        fmt::format("show.panels: '{}' shows two blocks beside a wall, which this scene does not "
+                    "have; leave it out",
+                    exact_text(panel)));
+  }
+
   const Scene& scene_;
+  Bodies bodies_;
   bool is_article_;
   Fonts fonts_;
   Palette palette_;
+  std::vector<BlockColors> colors_;  ///< of the bodies
   Sizes sizes_;
   Layout layout_;  ///< made by run(): what else there is decides it
   DrawingContext context_;
@@ -172,14 +207,12 @@ class Composer {
 
 }  // namespace
 
-Composition::Composition(const Scene& scene, const CollisionLog& log,
-                         std::shared_ptr<const Image> logo)
+Composition::Composition(const Scene& scene, const Log& log, std::shared_ptr<const Image> logo)
     : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}},
       drawables_(Composer(scene, log, needs_).run(std::move(logo))) {}
 
 DrawList Composition::frame(const FrameState& shown) const {
-  check(is_finite(shown.state.blue) && is_finite(shown.state.red), shown.time);
-  for (const BodyMotion& body : shown.bodies) check(is_finite(body), shown.time);
+  for (const BodyMotion& body : shown.state.bodies) check(is_finite(body), shown.time);
   DrawList list = empty_;
   for (const Drawable& drawable : drawables_) drawable(shown, list.items);
   check(are_finite(list.items), shown.time);

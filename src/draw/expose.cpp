@@ -82,17 +82,25 @@ class DwellTable {
   std::vector<double> shares_;
 };
 
+const Exposure& blocks_of(const WeightedExposure& weighted) {
+  return weighted.exposure.closed->blocks;
+}
+
 std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
                              std::span<const WeightedExposure> exposures) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Travel range{kInfinity, -kInfinity};  // of the block's left edge
-  for (const auto& [share, exposure] : exposures) range.include(to_px(exposure.range(block)));
+  for (const WeightedExposure& weighted : exposures) {
+    range.include(to_px(blocks_of(weighted).range(block)));
+  }
   if (!(range.to - range.from > kStill_px)) return {};
   range.from = std::max(range.from, -to_px.block_px - kMargin_px);
   range.to = std::min(range.to, to_px.visible_right_px + kMargin_px);
   if (!(range.to > range.from)) return {};
   DwellTable table(range, spacing_px(range.to - range.from));
-  for (const auto& [weight, exposure] : exposures) {
+  for (const WeightedExposure& weighted : exposures) {
+    const double weight = weighted.share;
+    const Exposure& exposure = blocks_of(weighted);
     if (const auto& area_below = exposure.area_below) {
       table.add(weight, to_px(exposure.range(block)),
                 [&](double x) { return area_below(block, to_px.back(x)) * to_px.scale; });
@@ -152,7 +160,7 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
   ExposedBlocksItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
   if (item.behind.is_still() && item.front.is_still()) return item;
   for (const WeightedExposure& weighted : exposures) {
-    for (const UniformPiece& piece : weighted.exposure.pieces) {
+    for (const UniformPiece& piece : blocks_of(weighted).pieces) {
       add_contacts({.right = red_px(piece.red),
                     .left = blue_px(piece.blue),
                     .left_width = blue_width,

@@ -12,8 +12,8 @@
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/overlays/loupe.hpp"
-#include "draw/overlays/overlays.hpp"
 #include "draw/panel_grid.hpp"
+#include "draw/stage/stage.hpp"
 #include "draw/text_lines.hpp"
 
 namespace piblocks {
@@ -91,7 +91,7 @@ class FramePlanner {
     if (read_outs_height_px > 0 && has_edge) {
       bottom_ -= std::max(0.0, sizes_.margin - kBelowBaseline * sizes_.text);
     }
-    if (is_plane() && !show_.panels.empty()) return beside(read_outs_height_px);
+    if (context_.is_plane() && !show_.panels.empty()) return beside(read_outs_height_px);
     double height = bottom_ - top_ - read_outs_height_px;
     if (!show_.panels.empty()) height = stage_height(height);
     if (height < kLeastStage * sizes_.short_side) throw_no_room();
@@ -102,10 +102,6 @@ class FramePlanner {
   }
 
  private:
-  bool is_plane() const {
-    return context_.scene.bodies && context_.scene.bodies->system.dimensions == 2;
-  }
-
   /// Discs need height: diagrams are beside them, or below them in upright frames.
   FramePlan beside(double read_outs_height_px) {
     const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
@@ -249,8 +245,7 @@ class FramePlanner {
     place.slow_motion = {left, place.pi_baseline_px};
     if (counter_->slow_motion_px > 0) left -= counter_->slow_motion_px + sizes_.gap;
     // Blocks that stay left of this line may be beside it.
-    const bool is_above = left < right_ && (context_.blocks == nullptr ||
-                                            reach_px(context_.scene, context_.log()) > left);
+    const bool is_above = left < right_ && reach_px(context_) > left;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
     place.pi_row_left_px = std::min(right_, left + sizes_.gap);
@@ -311,8 +306,7 @@ class FramePlanner {
     // In upright frames the loupe is below the digits of pi. It takes what diagrams do not need.
     const double spare =
         room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.short_side;
-    if (view_.height_px > view_.width_px && spare > 0 && context_.blocks != nullptr &&
-        may_show_loupe(context_)) {
+    if (view_.height_px > view_.width_px && spare > 0 && may_show_loupe(context_)) {
       height += std::min(kLoupeRoom * sizes_.short_side, spare);
       plan_.is_floor_at_bottom = true;
     }

@@ -6,7 +6,9 @@
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,47 +49,61 @@ inline Rectangle whole_pixels(const Rectangle& area, double around_px = 0) {
 /// The stage: the map from scene to pixels. It depends on the area and on the longest count alone,
 /// so that nothing shifts while the counter grows.
 struct Layout {
-  double scale = 1;          ///< pixels per unit of the scene
-  Point origin;              ///< pixel position of the scene's (0, 0)
-  int visible_right_px = 0;  ///< blocks are seen up to here
-  double line_px = 1;        ///< of the blocks' outlines
-  double floor_px = 0;       ///< the blocks stand on it
-  BlockShape blue;
-  BlockShape red;
-  double above_px = 0;  ///< room above the taller block
+  double scale = 1;                     ///< pixels per unit of the scene
+  Point origin;                         ///< pixel position of the scene's (0, 0)
+  double visible_right_px = 0;          ///< blocks are seen up to here
+  double line_px = 1;                   ///< of the bodies' outlines
+  std::vector<BlockShape> shapes = {};  ///< of all bodies; discs are as high as wide
+  CountLine count_line = {};            ///< of the article's picture alone
+
+  // Of blocks on a line.
+  double floor_px = 0;  ///< the blocks stand on it
+  double above_px = 0;  ///< room above the tallest block
   double below_px = 0;  ///< room below the floor
   double wall_bottom_px = 0;
   double content_right_px = 0;  ///< floor and labels end here
-  CountLine count_line = {};    ///< of the article's picture alone
+
+  /// Of discs: the part of the frame that shows them, in whole pixels. All else is seen from its
+  /// upper left corner.
+  Rectangle window = {};
 
   /// Pixel position of a point of the scene.
   Point at(double x, double y) const noexcept {
     return {origin.x + x * scale, origin.y - y * scale};
   }
-  /// The same of a block. @param position  of its centre
-  Rectangle at(const BlockShape& block, double position) const noexcept {
+  Point at(const std::array<double, 2>& place) const noexcept { return at(place[0], place[1]); }
+  double width_px(std::size_t body) const noexcept { return shapes[body].width * scale; }
+  double height_px(std::size_t body) const noexcept { return shapes[body].height_px; }
+  /// A block on the floor.
+  Rectangle at(std::size_t body, const FrameState& shown) const noexcept {
+    const BlockShape& block = shapes[body];
+    const double position = shown.state.bodies[body].position[0];
     return {origin.x + (position - block.width / 2) * scale, floor_px - block.height_px,
             block.width * scale, block.height_px};
   }
-  double top_px() const noexcept { return floor_px - std::max(blue.height_px, red.height_px); }
+  double top_px() const noexcept {
+    return floor_px - std::ranges::max_element(shapes, {}, &BlockShape::height_px)->height_px;
+  }
 };
 
 /// What overlays and panels are drawn from. It does not outlive their making.
 struct DrawingContext {
   const Scene& scene;
-  const Log& timeline;
-  const CollisionLog* blocks = nullptr;  ///< the same, of two blocks and a wall; else nullptr
-  const Log* bodies = nullptr;           ///< the same, of bodies; else nullptr
+  const Bodies& bodies;  ///< of the scene
+  const Log& log;
   const Palette& palette;
+  const std::vector<BlockColors>& colors;  ///< of each body
   const Fonts& fonts;
   const Font& font;  ///< of plain text
   const Layout& layout;
   const Sizes& sizes;
-  FrameNeeds& needs;                         ///< a drawable says here what it reads of a FrameState
-  std::optional<double> certain_until = {};  ///< as Log has it
+  FrameNeeds& needs;  ///< a drawable says here what it reads of a FrameState
 
-  /// Of two blocks and a wall, for what is drawn for them alone.
-  const CollisionLog& log() const { return *blocks; }
+  /// Of two blocks beside a wall, for what is drawn for them alone.
+  const CollisionLog& two_blocks() const { return *pair(); }
+  /// Nothing where the scene has other bodies.
+  const CollisionLog* pair() const { return scene.bodies ? nullptr : log.pair(); }
+  bool is_plane() const noexcept { return bodies.system.dimensions == 2; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };
 
@@ -130,18 +146,20 @@ struct CounterRoom {
 FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
                      double read_outs_height_px);
 
-/// How far to the right blocks and what is above them come while the film lasts, in pixels.
-double reach_px(const Scene& scene, const CollisionLog& log);
+/// How far to the right blocks and what is above them come while the film lasts, in pixels;
+/// infinite where that is not known beforehand.
+double reach_px(const DrawingContext& context);
 
-/// The stage in an area of the frame.
-/// @throws UsageError if the view is so close that doubles cannot hold the positions, or the area
+/// The places of the stage in its area: of blocks on a line, or of discs in a plane.
+/// @param context  its layout is not read.
+/// @throws UsageError if the view is right of the wall, too close to tell positions, or the area
 ///         is too low for the blocks.
 /// @param is_floor_at_bottom  as in FramePlan
-Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font,
+Layout lay_out_stage(const DrawingContext& context, const Rectangle& area,
                      bool is_floor_at_bottom = false);
 /// The same of the article's picture. @param longest_count  of those that will be shown
-Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
-                       const Font& font);
+Layout lay_out_article(const DrawingContext& context, const Integer& longest_count,
+                       const Rectangle& area);
 
 /// @throws UsageError if positions, which are doubles, would be drawn in wrong places.
 void check_resolution(const View& view, double scale);
@@ -153,13 +171,10 @@ struct AxisPlace {
   double visible_right_px = 0;
 };
 
-/// The blocks while the picture is exposed. @param red, blue  at its instant, without dwells
+/// The two blocks of a closed form while the picture is exposed, as seen from their wall.
+/// @param red, blue  at its instant, without dwells
 ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const AxisPlace& axis,
                                  std::span<const WeightedExposure> exposures);
-
-/// Adds both blocks as they are at the frame's instant, or exposed.
-void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,
-                std::vector<DrawItem>& items);
 
 /// What is the same in every frame.
 inline Drawable unchanging(std::vector<DrawItem> same) {
@@ -168,7 +183,8 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
   };
 }
 
-/// The sum of both blocks' mass · velocity², which never changes.
+/// The sum of mass · velocity² of all bodies that move, which never changes.
+Rational twice_energy(const BodySystem& system);
 Rational twice_energy(const BlockSystem& system);
 
 }  // namespace piblocks

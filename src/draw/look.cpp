@@ -1,6 +1,8 @@
 #include "draw/look.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace piblocks {
 namespace {
@@ -127,6 +129,64 @@ constexpr Palette kColorblind = {
     .shade = {160, 184, 200},
 };
 
+/// Relative luminance (WCAG 2.1), to a twentieth: the sRGB curve as a product.
+double luminance(const Color& color) {
+  const auto linear = [](int level) {
+    const double value = level / 255.0;
+    return value * value * (0.8 + 0.2 * value);
+  };
+  return 0.2126 * linear(color.red) + 0.7152 * linear(color.green) + 0.0722 * linear(color.blue);
+}
+
+double contrast(const Color& a, const Color& b) {
+  const auto [dark, light] = std::minmax({luminance(a), luminance(b)});
+  return (light + 0.05) / (dark + 0.05);
+}
+
+Color mixed(const Color& from, const Color& to, double share) {
+  const auto mix = [&](int a, int b) {
+    return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
+  };
+  return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
+}
+
+/// The colour, as little nearer to that of texts as its contrast with the background asks for.
+Color readable(const Color& color, const Palette& palette, double least) {
+  for (double share = 0; share < 1; share += 0.1) {
+    const Color mix = mixed(color, palette.text, share);
+    if (contrast(mix, palette.background) >= least) return mix;
+  }
+  return palette.text;
+}
+
+/// More bodies than this have one colour, unless the scene says otherwise.
+constexpr std::size_t kMostColored = 12;
+
+/// Beside blue and red: green, orange, purple, and a blue green (Okabe and Ito, "Color Universal
+/// Design", 2008, with a darker and a lighter form for light and dark backgrounds).
+constexpr std::array<Color, 4> kOnLight = {
+    {{0, 138, 100}, {204, 121, 0}, {150, 84, 160}, {0, 120, 140}}};
+constexpr std::array<Color, 4> kOnDark = {
+    {{86, 204, 150}, {245, 178, 70}, {206, 150, 220}, {92, 200, 214}}};
+constexpr std::array<Color, 4> kGreys = {
+    {{210, 210, 210}, {84, 84, 84}, {150, 150, 150}, {232, 232, 232}}};
+
+/// Bars of bodies in turn, where themes tell bodies by them.
+constexpr std::array<int, 6> kBars = {0, 4, 2, 0, 4, 2};
+
+/// What goes with a colour that is not of the palette.
+BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) {
+  const bool is_dark = luminance(palette.background) < 0.2;
+  // Bars have the edge's colour.
+  const double share = is_dark ? 0.5 : palette.red.bars > 0 ? 0.7 : 0.375;
+  Color edge = mixed(fill, is_dark ? kWhite : kBlack, share);
+  if (theme == Theme::print) edge = palette.wall;
+  if (is_lecture(theme)) edge = fill;
+  const Color text = contrast(fill, kWhite) > contrast(fill, kBlack) ? kWhite : kBlack;
+  const Color line = readable(fill, palette, 3.2);
+  return {fill, readable(edge, palette, 3.2), text, line, readable(fill, palette, 4.8), 0, ""};
+}
+
 }  // namespace
 
 Palette palette_of(Theme theme) {
@@ -148,6 +208,32 @@ Palette palette_of(Theme theme, const BlockSystem& system) {
   small.name = "small";
   small.full_name = "small block";
   return palette;
+}
+
+std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const Palette& palette) {
+  const std::vector<Body>& all = bodies.system.bodies;
+  const bool is_dark = luminance(palette.background) < 0.2;
+  const bool has_bars = palette.red.bars > 0;
+  std::vector<BlockColors> turns = {palette.blue, palette.red};
+  for (const Color& more : theme == Theme::print ? kGreys : is_dark ? kOnDark : kOnLight) {
+    turns.push_back(colors_from(more, theme, palette));
+    if (has_bars) turns.back().bars = kBars.at(turns.size() - 1);
+  }
+  const BlockColors fixed = colors_from(palette.muted, theme, palette);
+  std::vector<BlockColors> colors;
+  colors.reserve(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (const auto& color = bodies.styles[i].color) {
+      const auto& [red, green, blue] = *color;
+      colors.push_back(colors_from({red, green, blue}, theme, palette));
+      if (has_bars) colors.back().bars = kBars.at(i % kBars.size());
+    } else if (!all[i].mass) {
+      colors.push_back(fixed);
+    } else {
+      colors.push_back(turns[all.size() > kMostColored ? 0 : i % turns.size()]);
+    }
+  }
+  return colors;
 }
 
 std::optional<Color> background_of(const View& view) {

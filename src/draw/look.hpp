@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "draw/draw_list.hpp"
 
@@ -47,6 +48,10 @@ Palette palette_of(Theme theme);
 /// The same for one system: blocks that are not red and blue are called large and small, unless
 /// their masses are equal.
 Palette palette_of(Theme theme, const BlockSystem& system);
+
+/// Of each body: the colour that the scene gives it; else those of blue and red, and further ones,
+/// in turn. A body that no collision moves has the colour of walls.
+std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const Palette& palette);
 
 /// Nothing if the view is transparent.
 std::optional<Color> background_of(const View& view);

@@ -89,29 +89,18 @@ std::vector<Voice> voices_of(const Film& film) {
 FilmRun::FilmRun(Scene scene, std::unique_ptr<const Log> log, FilmUse use)
     : scene_(std::move(scene)), log_(std::move(log)) {
   if (use == FilmUse::audio_only) return;
-  if (scene_.bodies) {
-    composition_.emplace(scene_, *log_, read_logo(scene_));
-  } else {
-    composition_.emplace(scene_, *log_->pair(), read_logo(scene_));
-  }
+  composition_.emplace(scene_, *log_, read_logo(scene_));
 }
 
 DrawList FilmRun::picture(const FrameTime& shown, const Rational& speed,
                           const VideoTime* video_time) const {
-  if (scene_.bodies) return picture_of_bodies(shown, speed);
-  const CollisionLog& blocks = *log_->pair();
-  const FrameNeeds& needs = composition_->needs();
-  return composition_->frame(video_time == nullptr
-                                 ? frame_state(blocks, shown, needs)
-                                 : frame_state(blocks, shown, needs, *video_time));
-}
-
-DrawList FilmRun::picture_of_bodies(const FrameTime& shown, const Rational& speed) const {
   Rational last = shown.time;
   for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
   require_certain(scene_, *log_, last);
-  constexpr int kTrail_s = 2;  // of video where nothing slows it down
-  return composition_->frame(frame_state(*log_, shown, composition_->needs(), speed * kTrail_s));
+  const FrameNeeds& needs = composition_->needs();
+  return composition_->frame(video_time == nullptr
+                                 ? frame_state(*log_, shown, needs, speed)
+                                 : frame_state(*log_, shown, needs, speed, *video_time));
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
@@ -123,7 +112,7 @@ DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
 std::vector<DrawList> FilmRun::stills(std::span<const Rational> times,
                                       const std::function<void()>& on_picture) const {
   const FrameNeeds& needs = composition_->needs();
-  const bool depends_on_video = needs.hits || needs.video_s || needs.trails ||
+  const bool depends_on_video = needs.hits || needs.video_s || needs.trail_s > 0 ||
                                 scene_.view.shutter > 0 || has_slow_motion(scene_.pacing);
   std::optional<Schedule> schedule;
   if (depends_on_video && has_span(scene_, log())) {

@@ -58,7 +58,6 @@ class FilmRun {
   /// @param speed  simulation time per second of video
   DrawList picture(const FrameTime& shown, const Rational& speed,
                    const VideoTime* video_time) const;
-  DrawList picture_of_bodies(const FrameTime& shown, const Rational& speed) const;
 
   Scene scene_;
   std::unique_ptr<const Log> log_;

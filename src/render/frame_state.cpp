@@ -3,6 +3,8 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -35,7 +37,7 @@ struct Passage {
 
 /// What is passed from `begin_s` on until the moment, the latest first.
 /// @param count  at the moment
-std::vector<Passage> passages(const CollisionLog& log, const VideoTime& video_time, Integer count,
+std::vector<Passage> passages(const Log& log, const VideoTime& video_time, Integer count,
                               const Rational& begin_s) {
   const auto stretches = video_time.schedule.stretches();
   std::vector<Passage> found;
@@ -45,7 +47,7 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoTime& video_ti
     now_s = std::max(stretch.video_s, begin_s);
     if (stretch.speed == 0) continue;
     const Rational from = stretch.time + stretch.speed * (now_s - stretch.video_s);
-    Integer before = log.blocks_at(from).count;
+    Integer before = log.count_at(from);
     if (before != count) {
       found.push_back({stretch, std::min(before, count) + 1, std::max(before, count)});
     }
@@ -55,7 +57,7 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoTime& video_ti
 }
 
 /// As exact as its age needs it: where time all but stands still, a double-double is too coarse.
-Rational time_of(const CollisionLog& log, const Collision& collision, const Stretch& stretch) {
+Rational time_of(const Log& log, const BodyCollision& collision, const Stretch& stretch) {
   constexpr unsigned long kUsed_bits = 90;  // of the 104 that are right
   Rational rounded = to_rational(collision.time);
   if (abs(stretch.speed) * power(2, kUsed_bits) >= abs(rounded)) return rounded;
@@ -67,12 +69,12 @@ Rational time_of(const CollisionLog& log, const Collision& collision, const Stre
 }
 
 struct AgedCollision {
-  Collision collision;
+  BodyCollision collision;
   double age_s;
 };
 
 /// The newest collisions that the picture has passed, the latest first.
-std::vector<AgedCollision> newest(const CollisionLog& log, const std::vector<Passage>& passages,
+std::vector<AgedCollision> newest(const Log& log, const std::vector<Passage>& passages,
                                   const Rational& video_s) {
   std::vector<AgedCollision> found;
   for (const Passage& passage : passages) {
@@ -81,7 +83,7 @@ std::vector<AgedCollision> newest(const CollisionLog& log, const std::vector<Pas
     Integer index = forward ? passage.last : passage.first;
     for (Integer left = passage.size(); left > 0; --left, index += forward ? -1 : 1) {
       if (found.size() == kNewest) return found;
-      Collision collision = log.blocks_collision(index);
+      BodyCollision collision = log.collision(index);
       const Rational way_s = (time_of(log, collision, stretch) - stretch.time) / stretch.speed;
       const double age_s = to_double(video_s - stretch.video_s - way_s);
       // Only rounding can make a hit later than the moment.
@@ -98,14 +100,48 @@ double rate_of(const std::vector<AgedCollision>& three) {
   return std::min<double>(2 / std::max(both_intervals_s, newest_s), kWindowsPerSecond * kFewHits);
 }
 
-Hit hit_of(const CollisionLog& log, const AgedCollision& aged) {
-  const BlockSystem& system = log.blocks();
-  const Collision& collision = aged.collision;
-  const double contact = collision.kind == CollisionKind::wall
-                             ? to_double(system.wall_face)
-                             : collision.blue.position + to_double(system.blue.width / 2);
-  return {collision.kind, collision.index, contact, aged.age_s,
-          log.gaps_at_collision(collision.index)};
+/// Where the surfaces of those that have just met touch.
+std::array<double, 2> contact_of(const BodySystem& system, const BodyCollision& collision) {
+  const std::array<double, 2>& from = collision.first_after.position;
+  const Rational& size = system.bodies[collision.first].size;
+  const bool is_line = system.dimensions == 1;
+  const double reach = to_double(is_line ? size / 2 : size);
+  if (collision.second < system.bodies.size()) {
+    const std::array<double, 2>& to = collision.second_after.position;
+    if (is_line) return {to[0] > from[0] ? from[0] + reach : from[0] - reach, 0};
+    const double share = reach / (reach + to_double(system.bodies[collision.second].size));
+    return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
+  }
+  const Wall& wall = system.walls[collision.second - system.bodies.size()];
+  if (is_line) return {to_double(wall.point[0]), 0};
+  const std::array normal{to_double(wall.normal[0]), to_double(wall.normal[1])};
+  const double share = reach / std::sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
+  return {from[0] - share * normal[0], from[1] - share * normal[1]};
+}
+
+Hit hit_of(const Log& log, const AgedCollision& aged) {
+  const BodyCollision& collision = aged.collision;
+  const CollisionLog* const blocks = log.pair();
+  return {collision.index,
+          {collision.first, collision.second},
+          contact_of(log.system(), collision),
+          aged.age_s,
+          blocks != nullptr ? blocks->gaps_at_collision(collision.index) : Gaps{}};
+}
+
+/// The pairs of the newest collisions, each once. @param passed  how many there are
+std::vector<MetPair> pairs_of(const Log& log, const Integer& newest, const Integer& passed) {
+  constexpr std::size_t kMostPairs = 64;
+  // Few pairs take turns.
+  const std::size_t most = std::min(kMostPairs, 2 * log.system().bodies.size());
+  std::vector<MetPair> pairs;
+  Integer index = newest;
+  for (std::size_t n = 0; n < most && n < passed && index >= log.first_index(); ++n, --index) {
+    const BodyCollision collision = log.collision(index);
+    const MetPair pair{collision.first, collision.second};
+    if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
+  }
+  return pairs;
 }
 
 bool is_moving(const VideoTime& video_time) {
@@ -117,41 +153,30 @@ bool is_moving(const VideoTime& video_time) {
 }  // namespace
 
 FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
-                       const Rational& trail) {
+                       const Rational& speed) {
   constexpr std::size_t kMostCorners = 100;
-  BodiesState now = log.state_at(shown.time);
   FrameState state{
-      .state = {std::move(now.count), {}, {}}, .time = shown.time, .slowdown = shown.slowdown};
-  state.bodies = std::move(now.bodies);
+      .state = log.state_at(shown.time), .time = shown.time, .slowdown = shown.slowdown};
   for (const TimeSlice& slice : shown.exposure) {
-    state.body_exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
+    state.exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
   }
-  if (needs.trails) {
-    const Rational from = std::max<Rational>(0, shown.time - trail);
+  if (needs.gaps) state.gaps = log.pair()->gaps_at(shown.time);
+  if (needs.trail_s > 0) {
+    const Rational from = std::max<Rational>(0, shown.time - speed * needs.trail_s);
     state.trails = log.paths(from, shown.time, kMostCorners);
   }
   return state;
 }
 
-FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs) {
-  FrameState state{log.blocks_at(shown.time), shown.time, shown.slowdown};
-  state.exposure.reserve(shown.exposure.size());
-  for (const TimeSlice& slice : shown.exposure) {
-    state.exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
-  }
-  if (needs.gaps) state.gaps = log.gaps_at(shown.time);
-  return state;
-}
-
-FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs,
-                       const VideoTime& video_time) {
-  FrameState state = frame_state(log, shown, needs);
+FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
+                       const Rational& speed, const VideoTime& video_time) {
+  FrameState state = frame_state(log, shown, needs, speed);
   state.video_s = to_double(video_time.video_s);
   if (needs.hits) add_hits(state, log, video_time);
   return state;
 }
 
-void add_hits(FrameState& state, const CollisionLog& log, const VideoTime& video_time) {
+void add_hits(FrameState& state, const Log& log, const VideoTime& video_time) {
   const auto passed = [&](const Rational& length_s) {
     return passages(log, video_time, state.state.count,
                     std::max<Rational>(video_time.video_s - length_s, 0));
@@ -165,7 +190,10 @@ void add_hits(FrameState& state, const CollisionLog& log, const VideoTime& video
     if (found.size() == kNewest) rate = rate_of(found);
   }
   if (is_moving(video_time)) state.hits_per_s = rate;
-  if (rate > kMaxHitsPerSecond) return;
+  if (rate > kMaxHitsPerSecond) {
+    state.met_pairs = pairs_of(log, state.state.count, std::max(count, Integer(found.size())));
+    return;
+  }
   for (auto aged = found.rbegin(); aged != found.rend(); ++aged) {
     if (aged->age_s < kHitLife_s) state.hits.push_back(hit_of(log, *aged));
   }

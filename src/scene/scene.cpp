@@ -167,11 +167,14 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
   const bool is_plane = scene.bodies->system.dimensions == 2;
   problems.require(is_plane || !scene.show.has(Overlay::trails), "show.overlays",
                    "'trails' is for discs; blocks have the diagram 'time'");
-  reject(scene.show.has(Overlay::ruler), "show.overlays", "'ruler'");
+  problems.require(!is_plane || !scene.show.has(Overlay::ruler), "show.overlays",
+                   "'ruler' is for blocks on a line");
   for (const Panel panel : scene.show.panels) {
     const bool is_there = panel == Panel::count || panel == Panel::speeds ||
-                          panel == (is_plane ? Panel::separation : Panel::time);
-    const char* const others = is_plane ? "count, speeds and separation" : "time, count and speeds";
+                          panel == (is_plane ? Panel::separation : Panel::time) ||
+                          (!is_plane && panel == Panel::conservation);
+    const char* const others =
+        is_plane ? "count, speeds and separation" : "time, count, conservation and speeds";
     problems.require(is_there, "show.panels", "'{}' is not for {}, which have {}",
                      exact_text(panel), is_plane ? "discs" : "bodies on a line", others);
   }

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -287,6 +289,152 @@ TEST(BodyPictures, DiscsAreCutOffWhereTheyLeave) {
         if (is_in_window) continue;
         ASSERT_EQ(all[at], beside[at]) << k << ": " << x << ", " << y;
       }
+    }
+  }
+}
+
+constexpr std::array kLines{"three-blocks", "two-walls", "row", "cradle", "superball", "recoil"};
+
+bool shows(const DrawItem& item, ItemId thing) {
+  const ItemId id = std::visit([](const auto& any) { return any.id; }, item);
+  return static_cast<std::uint32_t>(id) >> 16U == static_cast<std::uint32_t>(thing) >> 16U;
+}
+
+/// All paths that show one thing.
+std::vector<Rectangle> paths_of(const DrawList& list, ItemId thing) {
+  std::vector<Rectangle> found;
+  for (const DrawItem& item : list.items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path != nullptr && shows(item, thing)) found.push_back(path->points.bounds());
+  }
+  return found;
+}
+
+TEST(BodyPictures, ArrowsAndTextsKeepApart) {
+  for (const std::string name : kLines) {
+    for (const std::string size : {"640x360", "480x480", "400x711"}) {
+      std::optional<Film> film;
+      try {
+        film.emplace(shipped(name, {{"view.size", size},
+                                    {"view.fps", "5"},
+                                    {"show.panels", ""},
+                                    {"show.overlays", "masses,velocities"}}));
+      } catch (const UsageError&) {
+        continue;  // a label has no room
+      }
+      std::size_t arrows = 0;
+      for (std::int64_t k = 0; k < film->frame_count(); ++k) {
+        const DrawList list = film->frame(k);
+        ASSERT_EQ(problem_of(list), "") << name << " " << size << ", frame " << k;
+        for (const Rectangle& arrow : paths_of(list, ItemId::velocities)) {
+          ++arrows;
+          for (const Box& text : texts_of(list)) {
+            ASSERT_FALSE(overlap(
+                {arrow.x, arrow.y, arrow.x + arrow.width, arrow.y + arrow.height + 0.6, "an arrow"},
+                text))
+                << name << " " << size << ", frame " << k << ": " << text.what;
+          }
+        }
+      }
+      EXPECT_GT(arrows, 10U) << name;
+    }
+  }
+}
+
+/// In a row of a split screen the counter is beside the stage.
+TEST(BodyPictures, BlocksPassBehindTheCounterOfARow) {
+  const auto frame_with = [](int position) {
+    Scene scene = std::get<Scene>(
+        read(fmt::format("view.theme = 'lecture'\nview.x = [0, 10]\n[[body]]\nposition = 1\n"
+                         "[[body]]\nposition = {}\nvelocity = 1\n",
+                         position)));
+    scene.view.width_px = 1280;
+    scene.view.height_px = 240;
+    scene.view.short_side_px = 720;
+    scene.view.shutter = 0;
+    scene.time.to = Rational(1);
+    return Film(scene).frame(0);
+  };
+  const DrawList far_away = frame_with(1000);
+  const std::vector<std::uint32_t> wanted = painted(far_away);
+  const std::vector<Box> texts = texts_of(far_away);
+  const double left = std::ranges::min_element(texts, {}, &Box::left)->left;
+  for (int position = 11; position <= 18; ++position) {
+    const std::vector<std::uint32_t> pixels = painted(frame_with(position));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (double(i % 1280) < left) continue;
+      ASSERT_EQ(pixels[i], wanted[i]) << position << ": " << i % 1280 << ", " << i / 1280;
+    }
+  }
+}
+
+/// Every hit has its mark, whatever collides.
+TEST(BodyPictures, HitsAreMarkedWhereBodiesTouch) {
+  for (const std::string name : {"three-blocks", "row", "superball", "touch", "billiard"}) {
+    Scene scene = shipped(name, {{"view.shutter", "0"}, {"view.fps", "60"}});
+    const auto log =
+        make_body_log(scene.bodies->system,
+                      scene.time.to.is_time() ? std::optional(scene.time.to.offset) : std::nullopt);
+    const Film film(scene);
+    int marks = 0;
+    for (Integer k = 1; k <= std::min<Integer>(log->size(), 8); ++k) {
+      const double seen_s = log->collision_time(k).hi / to_double(scene.time.speed);
+      const auto number = static_cast<std::int64_t>(std::ceil(seen_s * 60));
+      if (number >= film.frame_count()) break;
+      const DrawList frame = film.frame(number);
+      const auto* const window = std::get_if<GroupItem>(&frame.items.front());
+      const DrawList& list = window != nullptr ? *window->list : frame;
+      for (const Rectangle& mark : paths_of(list, ItemId::hits)) {
+        ++marks;
+        EXPECT_LE(mark.width, 0.13 * 720) << name;
+        EXPECT_GT(mark.height, 0) << name;
+      }
+    }
+    EXPECT_GE(marks, name == "touch" ? 1 : 2) << name;
+  }
+}
+
+/// The energy always, the momentum where there are no walls and nothing is fixed.
+TEST(BodyPictures, SumsThatNothingTakesNeverChange) {
+  for (const std::string name : kShipped) {
+    const Scene scene = shipped(
+        name, {{"view.fps", "4"}, {"show.overlays", "energy,momentum"}, {"view.size", "640x360"}});
+    const bool is_free = scene.bodies->system.walls.empty() && name != "billiard";
+    const Film film(scene);
+    std::set<std::string> energies;
+    std::set<std::string> momenta;
+    for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+      for (const Box& text : texts_of(film.frame(k))) {
+        if (text.what.starts_with("Energy ")) energies.insert(text.what);
+        if (text.what.starts_with("Momentum ")) momenta.insert(text.what);
+      }
+    }
+    EXPECT_EQ(energies.size(), 1U) << name;
+    EXPECT_EQ(momenta.size() == 1, is_free) << name;
+  }
+}
+
+/// What blocks and walls have, as the diagram writes it, always adds up to the same.
+TEST(BodyPictures, ConservationAddsUp) {
+  for (const std::string name : {"three-blocks", "cradle", "superball", "recoil"}) {
+    const Film film(shipped(name, {{"view.fps", "2"},
+                                   {"view.size", "720x720"},
+                                   {"show.overlays", ""},
+                                   {"show.panels", "conservation"}}));
+    std::optional<double> first;
+    for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+      double momentum = 0;
+      double share = 0;
+      for (const DrawItem& item : film.frame(k).items) {
+        const auto* text = std::get_if<TextItem>(&item);
+        if (text == nullptr || text->id < ItemId::panels) continue;
+        std::string number = text->text;
+        if (number.starts_with("−")) number.replace(0, std::string("−").size(), "-");
+        (number.ends_with("%") ? share : momentum) += std::stod(number);
+      }
+      EXPECT_LE(share, 100 + 1e-9) << name;
+      if (!first) first = momentum;
+      EXPECT_NEAR(momentum, *first, 0.004) << name << ", frame " << k;
     }
   }
 }

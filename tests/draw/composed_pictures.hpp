@@ -12,6 +12,7 @@
 
 #include "draw/composition.hpp"
 #include "draw/font.hpp"
+#include "draw/layout.hpp"
 
 namespace piblocks {
 
@@ -37,6 +38,38 @@ struct Pictures {
 
   std::unique_ptr<CollisionLog> log;
   Composition composition;
+};
+
+/// What overlays are made from, of two blocks and a wall.
+struct Drawing {
+  explicit Drawing(const Scene& scene)
+      : log(make_collision_log(scene.system)),
+        scene_log(*log),
+        bodies(bodies_of(scene)),
+        palette(palette_of(scene.view.theme)),
+        colors(colors_of(bodies, scene.view.theme, palette)),
+        sizes(scene.view),
+        context{scene,
+                bodies,
+                scene_log,
+                palette,
+                colors,
+                fonts,
+                fonts.of(text_face_of(scene.view.theme)),
+                layout,
+                sizes,
+                needs} {}
+
+  std::unique_ptr<CollisionLog> log;
+  Log scene_log;
+  Bodies bodies;
+  Palette palette;
+  std::vector<BlockColors> colors;
+  Fonts fonts;
+  Layout layout;
+  Sizes sizes;
+  FrameNeeds needs;
+  DrawingContext context;
 };
 
 struct Box {

@@ -22,6 +22,10 @@ Settings lecture(int digits) {
           {"show.loupe", "off"}};
 }
 
+// Blue and what it meets.
+constexpr MetPair kRed = {0, 1};
+constexpr MetPair kWall = {0, 2};
+
 struct Arc {
   Point centre;
   double radius = 0;
@@ -97,6 +101,7 @@ int glow_of(const DrawList& frame) {
 TEST(HitMarks, GlowByTheLogarithmOfTheRate) {
   const Frames frames(lecture(3));
   FrameState state = frames.state({frames.turn()});
+  state.met_pairs = {kRed, kWall};
   int before = 0;
   for (double rate = 1; rate < 1e40; rate *= 1.5) {
     state.hits_per_s = rate;
@@ -116,7 +121,7 @@ TEST(HitMarks, OfTheWallAndOfBlocksAreInTheCornersAboveTheLowerBody) {
     SCOPED_TRACE(mass);
     const Frames frames(Settings{{"view.theme", "lecture"}, {"mass-ratio", mass}});
     FrameState state = frames.state({Rational(3)});
-    state.hits = {{CollisionKind::wall, 1, 0, 0.1, {}}, {CollisionKind::blocks, 2, 1, 0.05, {}}};
+    state.hits = {{1, kWall, {0, 0}, 0.1, {}}, {2, kRed, {1, 0}, 0.05, {}}};
     const DrawList frame = frames.of(state);
     const auto items = items_of<PathItem>(frame.items, ItemId::hits);
     ASSERT_EQ(items.size(), 2U);
@@ -138,7 +143,7 @@ TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
         Settings{{"view.theme", "lecture"}, {"show.hits", "false"}, {"show.loupe", "auto"}}}) {
     const Frames frames(settings);
     FrameState state = frames.state({frames.turn()});
-    state.hits = {{CollisionKind::wall, 1, 0, 0.1, {}}};
+    state.hits = {{1, kWall, {0, 0}, 0.1, {}}};
     const DrawList frame = frames.of(state);
     EXPECT_TRUE(items_of<PathItem>(frame.items, ItemId::hits).empty());
     if (const auto seen = loupe_in(frame)) {
@@ -156,8 +161,8 @@ TEST(HitMarks, AreInTheLoupeToo) {
   const Frames frames(settings);
   FrameState state = frames.state({frames.turn()});
   const Gaps gaps = state.gaps;
-  state.hits = {{CollisionKind::wall, 1, 0, 0.1, {0, gaps.y2}},
-                {CollisionKind::blocks, 2, 1 + gaps.y2, 0.05, {gaps.y2 / 2, gaps.y2 / 2}}};
+  state.hits = {{1, kWall, {0, 0}, 0.1, {0, gaps.y2}},
+                {2, kRed, {1 + gaps.y2, 0}, 0.05, {gaps.y2 / 2, gaps.y2 / 2}}};
   const auto seen = loupe_in(frames.of(state));
   ASSERT_TRUE(seen);
   const auto items = items_of<PathItem>(seen->list.items, ItemId::hits);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "draw/canvas.hpp"
+#include "draw/composed_pictures.hpp"
 #include "draw/layout.hpp"
 #include "draw/montage.hpp"
 
@@ -65,19 +66,13 @@ TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
   scene.view = view_of_size(1280, 240);
   scene.view.short_side_px = 720;
   scene.view.theme = Theme::lecture;
-  const auto log = make_collision_log(scene.system);
-  const Palette palette = palette_of(scene.view.theme);
-  const Fonts fonts;
-  const Layout layout;
-  const Sizes sizes(scene.view);
-  FrameNeeds needs;
-  const DrawingContext context{
-      scene, *log, log.get(), nullptr, palette, fonts, fonts.of(Face::text), layout, sizes, needs};
+  const Drawing drawing(scene);
+  const Sizes& sizes = drawing.sizes;
   for (const double pi_px : {0.0, 100.0, 700.0}) {
     for (const double slow_px : {0.0, 120.0, 800.0}) {
       const CounterRoom room{
           .count_em = 2, .label_px = 90, .pi_px = pi_px, .slow_motion_px = slow_px};
-      const FramePlan plan = plan_frame(context, room, 0);
+      const FramePlan plan = plan_frame(drawing.context, room, 0);
       const double left = plan.counter.pi_row_left_px;
       EXPECT_LE(left, 1280 - sizes.margin - std::max(pi_px, slow_px));
       EXPECT_LE(left, plan.counter.right_px - plan.counter.room_px);

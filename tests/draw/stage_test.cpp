@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "draw/composed_pictures.hpp"
 #include "draw/composition.hpp"
 #include "draw/font.hpp"
 #include "draw/layout.hpp"
@@ -37,7 +38,7 @@ const TextItem& text(const DrawList& list, ItemId id) {
 
 Layout lay_out(const Scene& scene, const Integer& longest_count) {
   const Rectangle whole{0, 0, double(scene.view.width_px), double(scene.view.height_px)};
-  return lay_out_article(scene, longest_count, whole, Font());
+  return lay_out_article(Drawing(scene).context, longest_count, whole);
 }
 
 DrawList compose(const Scene& scene, const BlockState& state) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,7 +41,7 @@ struct Part {
 };
 
 /// What is seen in pictures, and on what. WCAG 2.1, 1.4.3 for text and 1.4.11 for lines.
-std::vector<Part> parts_of(const Palette& palette) {
+std::vector<Part> parts_of(const Palette& palette, const std::vector<BlockColors>& bodies = {}) {
   const Color ground = palette.background;
   std::vector<Part> parts{{"text", palette.text, ground, 4.5},
                           {"muted text", palette.muted, ground, 4.5},
@@ -50,7 +51,9 @@ std::vector<Part> parts_of(const Palette& palette) {
                           {"wall and floor", palette.wall, ground, 3},
                           {"grid", palette.grid, ground, 3},
                           {"filled area", palette.shade, ground, 2}};
-  for (const BlockColors* block : {&palette.blue, &palette.red}) {
+  std::vector<const BlockColors*> blocks{&palette.blue, &palette.red};
+  for (const BlockColors& body : bodies) blocks.push_back(&body);
+  for (const BlockColors* block : blocks) {
     parts.push_back({"text on a block", block->text, block->fill, 4.5});
     parts.push_back({"text about a block", block->label, ground, 4.5});
     parts.push_back({"a block's path", block->line, ground, 3});
@@ -67,6 +70,41 @@ TEST(Theme, EverythingStandsOutFromItsGround) {
       EXPECT_GE(contrast(color, ground), least) << name << " of " << exact_text(theme);
       EXPECT_EQ(color.alpha, 255) << name;
     }
+  }
+}
+
+/// Bodies have further colours, or any that a scene gives them.
+TEST(Theme, BodiesStandOutFromTheirGround) {
+  std::mt19937 random(1);
+  for (const Theme theme : kThemes) {
+    const Palette palette = palette_of(theme);
+    Bodies bodies{{1, std::vector<Body>(12), {}}, std::vector<BodyStyle>(12)};
+    for (const Part& part : parts_of(palette, colors_of(bodies, theme, palette))) {
+      // Filled areas with an edge may be pale.
+      const bool is_pale = std::string(part.name) == "a block";
+      if (is_pale) continue;
+      EXPECT_GE(contrast(part.color, part.ground), part.least)
+          << part.name << " of " << exact_text(theme);
+    }
+    for (BodyStyle& style : bodies.styles) {
+      const auto level = [&] { return static_cast<std::uint8_t>(random() % 256); };
+      style.color = {level(), level(), level()};
+    }
+    for (const BlockColors& body : colors_of(bodies, theme, palette)) {
+      EXPECT_GE(contrast(body.text, body.fill), 4.5) << exact_text(theme);
+      EXPECT_GE(contrast(body.label, palette.background), 4.5) << exact_text(theme);
+      EXPECT_GE(contrast(body.line, palette.background), 3) << exact_text(theme);
+      EXPECT_GE(contrast(body.edge, palette.background), 3) << exact_text(theme);
+    }
+  }
+}
+
+TEST(Theme, NeighboursDifferWithoutColours) {
+  for (const Theme theme : {Theme::print, Theme::colorblind}) {
+    const Palette palette = palette_of(theme);
+    const Bodies bodies{{1, std::vector<Body>(12), {}}, std::vector<BodyStyle>(12)};
+    const std::vector<BlockColors> colors = colors_of(bodies, theme, palette);
+    for (std::size_t i = 1; i < colors.size(); ++i) EXPECT_NE(colors[i].bars, colors[i - 1].bars);
   }
 }
 

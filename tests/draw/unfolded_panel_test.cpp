@@ -39,12 +39,10 @@ struct Pictures {
   explicit Pictures(Scene of)
       : scene(std::move(of)), log(make_collision_log(scene.system)), composition(scene, *log) {}
 
-  DrawList at(const Rational& time) const {
-    return composition.frame({log->blocks_at(time), time});
-  }
+  DrawList at(const Rational& time) const { return composition.frame({log->state_at(time), time}); }
   DrawList after(const Integer& index) const {
     const Rational time = log->time_after(index);
-    return composition.frame({log->blocks_at(time), time});
+    return composition.frame({log->state_at(time), time});
   }
   Rational end() const { return span_of(scene, *log).to; }
 
@@ -161,13 +159,13 @@ TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
     const Plane plane(pictures);
     const std::vector<DiscItem> dots = dots_of(pictures.at(pictures.end()));
     ASSERT_EQ(Integer(static_cast<unsigned long>(dots.size())),
-              pictures.log->blocks_at(pictures.end()).count);
+              pictures.log->state_at(pictures.end()).count);
     ASSERT_GT(dots.size(), 1U);
     double before = 0;
     for (std::size_t i = 0; i < dots.size(); ++i) {
       const Integer k(static_cast<unsigned long>(i) + 1);
-      const Collision collision = pictures.log->blocks_collision(k);
-      const Gaps gaps = pictures.log->gaps_at_collision(k);
+      const Collision collision = pictures.log->collision(k);
+      const Gaps gaps = gaps_at_collision(*pictures.log, k);
       EXPECT_NEAR(plane.distance(dots[i].centre),
                   std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1),
                   1e-9)
@@ -192,7 +190,7 @@ TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
     const std::vector<DiscItem> dots = dots_of(list);
     const std::vector<PathItem> rays = rays_of(list);
     ASSERT_EQ(rays.size(), dots.size());
-    const bool is_thinned = pictures.log->last() > 128;
+    const bool is_thinned = pictures.log->size() > 128;
     for (std::size_t i = 0; i < dots.size(); ++i) {
       const double angle = plane.angle(dots[i].centre);
       const double k = is_thinned ? std::round(angle / plane.theta) : double(i + 1);
@@ -226,9 +224,9 @@ TEST(Unfolded, ManyMirrorsAreThinnedButTrue) {
     const std::vector<DiscItem> dots = dots_of(pictures.at(pictures.end()));
     ASSERT_GT(dots.size(), 20U) << digits;
     ASSERT_LT(dots.size(), 600U) << digits;
-    const Integer& last = pictures.log->last();
+    const Integer& last = pictures.log->size();
     const auto distance = [&](const Integer& k) {
-      const Gaps gaps = pictures.log->gaps_at_collision(k);
+      const Gaps gaps = gaps_at_collision(*pictures.log, k);
       return std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1);
     };
     for (std::size_t i = 0; i < 4; ++i) {
@@ -290,7 +288,7 @@ TEST(Unfolded, TheTitleSaysHowManyMirrors) {
   for (const Settings& settings : systems()) {
     const Pictures pictures(scene_with(2, settings));
     const std::string text = text_of(pictures.at(1));
-    const std::string count = pictures.log->last().get_str();
+    const std::string count = pictures.log->size().get_str();
     const bool says_count = text.find(count + " mirror") != std::string::npos ||
                             text.find("⌋ = " + count + " of them") != std::string::npos;
     EXPECT_TRUE(says_count) << text;
@@ -446,9 +444,8 @@ TEST(Mirrors, OpenFromTheWedgeBefore) {
   ASSERT_TRUE(pictures.composition.needs().hits);
   const auto with_age = [&](int count, double age_s) {
     const Rational time = pictures.log->time_after(count);
-    FrameState shown{pictures.log->blocks_at(time), time};
-    const Collision collision = pictures.log->blocks_collision(count);
-    shown.hits.push_back({.kind = collision.kind, .index = count, .age_s = age_s});
+    FrameState shown{pictures.log->state_at(time), time};
+    shown.hits.push_back({.index = count, .age_s = age_s});
     return pictures.composition.frame(shown);
   };
   for (int count = 1; count <= 31; ++count) {

@@ -74,8 +74,8 @@ std::vector<double> mean_of_instants(const Scene& open, std::int64_t frame) {
     const Rational time = schedule.time_of(frame) + open.view.shutter *
                                                         Rational(2 * i + 1, 2 * kInstants) /
                                                         open.view.frame_rate;
-    FrameState shown{.state = {count, {}, {}}, .time = time};
-    shown.bodies = log->state_at(time).bodies;
+    FrameState shown{.state = log->state_at(time), .time = time};
+    shown.state.count = count;
     canvas.update(composition.frame(shown));
     mean.add(samples_of(canvas.view()));
   }

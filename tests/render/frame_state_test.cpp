@@ -100,14 +100,15 @@ void expect_hits(const FrameState& state, const std::vector<Pass>& wanted,
     const Hit& hit = state.hits[i];
     const Collision& collision = wanted[i].collision;
     EXPECT_EQ(hit.index, collision.index);
-    EXPECT_EQ(hit.kind, collision.kind);
+    EXPECT_EQ(hit.pair[0], 0U);
+    const bool is_wall = collision.kind == CollisionKind::wall;
+    EXPECT_EQ(hit.pair[1], is_wall ? 2U : 1U);
     EXPECT_NEAR(hit.age_s, to_double(video_s - wanted[i].video_s), 1e-12);
     EXPECT_GE(hit.age_s, 0);
     EXPECT_LT(hit.age_s, kHitLife_s);
-    EXPECT_NEAR(hit.contact, surface_of(system, collision), 1e-14);
-    EXPECT_NEAR(hit.contact - to_double(system.wall_face),
-                hit.kind == CollisionKind::wall ? 0 : hit.gaps.y1 + to_double(system.blue.width),
-                1e-14);
+    EXPECT_NEAR(hit.contact[0], surface_of(system, collision), 1e-14);
+    EXPECT_NEAR(hit.contact[0] - to_double(system.wall_face),
+                is_wall ? 0 : hit.gaps.y1 + to_double(system.blue.width), 1e-14);
   }
 }
 

@@ -44,7 +44,9 @@ TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   }
   EXPECT_TRUE(problems(body + "[show]\nloupe = 'off'\n").empty());
   expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays has 'digits'" + why);
-  expect_problem(body + "[show]\noverlays = ['ruler']\n", "4: show.overlays has 'ruler'" + why);
+  EXPECT_TRUE(problems(body + "[show]\noverlays = ['ruler']\n").empty());
+  expect_problem("[[body]]\nposition = [1, 0]\n[show]\noverlays = ['ruler']\n",
+                 "4: show.overlays 'ruler' is for blocks on a line");
   expect_problem(body + "[time]\nfrom = -1\n",
                  "4: time.from = -1: the motion of bodies begins at time 0");
   expect_problem(body + "[show]\noverlays = ['trails']\n",
@@ -63,12 +65,12 @@ TEST_F(BodiesFile, DiagramsAreOfOneKindOfRun) {
   for (const std::string& panel : all) {
     const std::string show = "[show]\npanels = ['" + panel + "']\n";
     const bool is_general = panel == "count" || panel == "speeds";
-    if (is_general || panel == "time") {
+    if (is_general || panel == "time" || panel == "conservation") {
       EXPECT_TRUE(problems(show + line).empty()) << panel;
     } else {
       expect_problem(show + line, "2: show.panels '" + panel +
-                                      "' is not for bodies on a line, which have time, count and "
-                                      "speeds");
+                                      "' is not for bodies on a line, which have time, count, "
+                                      "conservation and speeds");
     }
     if (is_general || panel == "separation") {
       EXPECT_TRUE(problems(show + plane).empty()) << panel;

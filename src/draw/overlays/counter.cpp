@@ -68,8 +68,8 @@ class Counter {
         palette_(context.palette),
         face_(context.font.face()),
         base_(context.scene.show.base),
-        last_(last_shown(context.scene, context.timeline)),
-        is_endless_(is_endless(context.timeline)),
+        last_(last_shown(context.scene, context.log)),
+        is_endless_(is_endless(context.log)),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
         count_widths_(context.fonts.of(Face::digits),
@@ -148,18 +148,21 @@ class Counter {
 
 }  // namespace
 
-std::string pi_count(const Scene& scene, const CollisionLog& log) {
+std::string pi_count(const DrawingContext& context) {
+  if (context.pair() == nullptr) return {};
+  const Scene& scene = context.scene;
+  const CollisionLog& log = context.two_blocks();
   const int base = scene.show.base;
   const bool is_asked_for = scene.show.has(Overlay::digits);
   if (!is_asked_for && scene.view.theme == Theme::article) return {};
-  if (!places_of_pi(scene.system, base)) {
+  if (!places_of_pi(log.blocks(), base)) {
     if (!is_asked_for) return {};
     throw UsageError(fmt::format(
         "show.overlays: there are no digits of pi to light up, since this scene does not count "
         "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
         base * base));
   }
-  if (!counted_pi(scene.system, log.last(), base).empty()) return count_text(log.last(), base);
+  if (!counted_pi(log.blocks(), log.last(), base).empty()) return count_text(log.last(), base);
   if (!is_asked_for) return {};
   const std::string counted = log.last().get_str(base);
   std::string digits = pi_digits(base, counted.size());
@@ -192,7 +195,7 @@ Integer longest_count(const Scene& scene, const Log& log) {
 }
 
 CounterRoom counter_room(const DrawingContext& context, const std::string& pi_count) {
-  const Integer longest = longest_count(context.scene, context.timeline);
+  const Integer longest = longest_count(context.scene, context.log);
   CounterRoom room;
   room.count_em = count_width_em(longest, context.scene.show.base, context.fonts.of(Face::digits));
   room.label_px = (context.font.width_em(kOverLabel) + kLabelGap_em) * context.sizes.text;

@@ -15,7 +15,7 @@ namespace piblocks {
 /// The count as the picture of its last collision shows it, if these are the digits of pi; else
 /// empty.
 /// @throws UsageError if they are not, and the scene asks for them.
-std::string pi_count(const Scene& scene, const CollisionLog& log);
+std::string pi_count(const DrawingContext& context);
 
 /// Length of the expected beginning of the count, with separators; 0 while it has fewer digits.
 std::size_t lit_length(std::string_view count, std::string_view expected);

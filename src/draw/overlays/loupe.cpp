@@ -10,7 +10,7 @@
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
-#include "draw/overlays/stage_parts.hpp"
+#include "draw/stage/stage.hpp"
 #include "scene/pacing.hpp"
 
 namespace piblocks {
@@ -26,6 +26,10 @@ constexpr long kMostPower = 300;
 /// Heights of the blocks in the inset differ by this factor at most.
 constexpr double kMaxInsetHeightRatio = 1.6;
 
+bool shows_wall(const DrawingContext& context) {
+  return seen_walls(context.bodies.system, context.scene.view).left.has_value();
+}
+
 std::optional<Loupe> loupe_of(const Scene& scene) {
   Loupe loupe = scene.show.loupe.value_or(Loupe{.is_on = is_lecture(scene.view.theme)});
   return loupe.is_on ? std::optional(std::move(loupe)) : std::nullopt;
@@ -34,11 +38,11 @@ std::optional<Loupe> loupe_of(const Scene& scene) {
 /// The gap between wall and red when it is about least; infinite if that cannot be told.
 /// @param within  the times of interest; if empty, all
 double least_gap(const DrawingContext& context, const std::optional<Span>& within = {}) {
-  const CollisionLog& log = context.log();
+  const CollisionLog& log = context.two_blocks();
   const auto is_within = [&](const Rational& time) {
     return !within || (time >= within->from && time <= within->to);
   };
-  const Rational turn = turn_of(context.scene.system).value_or(0);
+  const Rational turn = turn_of(context.two_blocks().blocks()).value_or(0);
   try {
     double least = HUGE_VAL;
     if (is_within(turn)) least = log.gaps_at(turn).y2;
@@ -57,7 +61,7 @@ double least_gap(const DrawingContext& context, const std::optional<Span>& withi
   }
 }
 
-Span span_of_window(const LoupeWindow& window, const CollisionLog& log) {
+Span span_of_window(const LoupeWindow& window, const Log& log) {
   Span span{time_of(window.from, kLoupeKey, log), time_of(window.to, kLoupeKey, log)};
   if (span.from < span.to) return span;
   throw UsageError(fmt::format("{}: its window from {} to {} must end after it begins", kLoupeKey,
@@ -67,8 +71,8 @@ Span span_of_window(const LoupeWindow& window, const CollisionLog& log) {
 /// @throws UsageError if the loupe would not be seen in its window.
 void check_is_seen(const DrawingContext& context, const Span& window) {
   Span shown = window;
-  if (has_span(context.scene, context.log())) {
-    const Span span = span_of(context.scene, context.log());
+  if (has_span(context.scene, context.log)) {
+    const Span span = span_of(context.scene, context.log);
     shown = {std::max(window.from, span.from), std::min(window.to, span.to)};
     if (shown.from >= shown.to) {
       throw UsageError(fmt::format(
@@ -92,9 +96,11 @@ void check_is_seen(const DrawingContext& context, const Span& window) {
 
 bool may_show_loupe(const DrawingContext& context) {
   const View& view = context.scene.view;
-  if (!shows_wall(context.scene) || !loupe_of(context.scene)) return false;
+  if (context.pair() == nullptr) return false;
+  if (!shows_wall(context) || !loupe_of(context.scene)) return false;
   // The stage's scale is known only once there is a stage. It is not larger.
-  const double scale = view.width_px / to_double(view.x.high - context.scene.system.wall_face);
+  const double scale =
+      view.width_px / to_double(view.x.high - context.two_blocks().blocks().wall_face);
   return least_gap(context) * scale < style::kMaxLoupeGap * context.sizes.short_side;
 }
 
@@ -102,10 +108,10 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
                                                    const FramePlan& plan) {
   const Scene& scene = context.scene;
   const std::optional<Loupe> loupe = loupe_of(scene);
-  if (!loupe) return nullptr;
+  if (!loupe || context.pair() == nullptr) return nullptr;
   const bool is_asked_for = loupe->window.has_value();
   const double gap_px = least_gap(context) * context.layout.scale;
-  if (!shows_wall(scene)) {
+  if (!shows_wall(context)) {
     if (!is_asked_for) return nullptr;
     throw UsageError(
         "show.loupe: the loupe enlarges the gap at the wall, and the view does not show the wall; "
@@ -113,7 +119,7 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   }
   const bool is_small = gap_px < style::kMaxLoupeGap * context.sizes.short_side;
   if (!is_asked_for && !is_small) return nullptr;
-  if (is_asked_for) check_is_seen(context, span_of_window(*loupe->window, context.log()));
+  if (is_asked_for) check_is_seen(context, span_of_window(*loupe->window, context.log));
   auto inset = std::shared_ptr<LoupeInset>(new LoupeInset(context, *loupe, gap_px));
   const std::optional<LoupePlace> place = find_loupe_place(context, plan, inset->texts());
   if (place) {
@@ -144,7 +150,7 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
       widths_(context.font, "0123456789,.×·") {
   context.needs.gaps = true;
   if (loupe.window) {
-    window_ = Window{span_of_window(*loupe.window, context.log()), to_double(loupe.window->zoom)};
+    window_ = Window{span_of_window(*loupe.window, context.log), to_double(loupe.window->zoom)};
   }
   const FormulaSetter setter = context.setter();
   const long most = zoom_.most_exponent() + 1;
@@ -171,16 +177,16 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   face_px_ = std::round(sizes_.grid_line + (loupe_style::kInside + style::kWallWidth) * short_side);
   blue_width_px_ = std::round(kBlueWidth * short_side);
   room_px_ = bounds_.width - face_px_ - blue_width_px_ - kLeastRed * short_side;
-  const double floor_px = std::round(bounds_.height - loupe_style::kBelowFloor * short_side);
+  floor_px_ = std::round(bounds_.height - loupe_style::kBelowFloor * short_side);
   const double room =
-      floor_px - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
+      floor_px_ - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
   const double taller = std::round(std::min(kBlocksHeight * short_side, room));
-  const double ratio = std::clamp(layout.red.height_px / layout.blue.height_px,
+  const double ratio = std::clamp(layout.height_px(1) / layout.height_px(0),
                                   1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
-  dimensions_ = {floor_px, std::round(taller / std::max(1.0, ratio)),
-                 std::round(taller * std::min(1.0, ratio)), HUGE_VAL};
+  blue_height_px_ = std::round(taller / std::max(1.0, ratio));
+  red_height_px_ = std::round(taller * std::min(1.0, ratio));
   if (context.scene.show.hits && context.scene.view.theme != Theme::article) {
-    marks_.emplace(context, dimensions_, HUGE_VAL);
+    marks_.emplace(context, HUGE_VAL, HUGE_VAL);
   }
 
   const double baseline = loupe_style::kInside * short_side + sizes_.text;
@@ -201,19 +207,19 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
     lines_y_ = bottom + loupe_style::kOutside * short_side;  // above all that is above red
   } else {
     corners_ = {Point{bounds_.x, bounds_.y}, Point{bounds_.x, bottom}};
-    lines_y_ = layout.floor_px - layout.blue.height_px / 2;
+    lines_y_ = layout.floor_px - layout.height_px(0) / 2;
   }
   place_scenery(context);
 }
 
 void LoupeInset::place_scenery(const DrawingContext& context) {
   const double line = sizes_.wall_line;
-  const double top = dimensions_.floor_px -
-                     std::max(dimensions_.blue_height_px, dimensions_.red_height_px) -
+  const double top = floor_px_ - std::max(blue_height_px_, red_height_px_) -
                      loupe_style::kAboveBlocks / 2 * sizes_.short_side;
-  std::vector<DrawItem> items = wall_items({face_px_, top, dimensions_.floor_px + line}, context);
+  std::vector<DrawItem> items =
+      hatched_wall({face_px_, top}, {face_px_, floor_px_ + line}, context);
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
-                                   {face_px_ - line, dimensions_.floor_px, bounds_.width, line},
+                                   {face_px_ - line, floor_px_, bounds_.width, line},
                                    palette_.wall,
                                    std::nullopt});
   scenery_ = plate_of(ItemId::wall, {0, 0, bounds_.width, bounds_.height}, std::move(items));

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "draw/layout.hpp"
-#include "draw/overlays/hits.hpp"
 #include "draw/overlays/loupe_place.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/overlays/zoom.hpp"
+#include "draw/stage/hits.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -60,6 +60,7 @@ class LoupeInset {
 
   DrawList picture(const FrameState& shown, double zoomed) const;
   void add_blocks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
+  void add_marks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
   void add_blue(double x_px, double seen, std::vector<DrawItem>& items) const;
   void add_zoom(double zoomed, const Color& color, std::vector<DrawItem>& items) const;
 
@@ -87,7 +88,9 @@ class LoupeInset {
   double face_px_ = 0;        ///< of the wall
   double blue_width_px_ = 0;  ///< blue is cut to this
   double room_px_ = 0;        ///< for the gap between wall and red, less blue
-  BlockDimensions dimensions_;
+  double floor_px_ = 0;
+  double blue_height_px_ = 0;
+  double red_height_px_ = 0;
   std::optional<HitMarks> marks_;
   PlateItem scenery_;
 };

@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/loupe.hpp"
-#include "draw/overlays/stage_parts.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {
@@ -47,7 +48,7 @@ double LoupeInset::zoom(double gap) const {
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const Rectangle red = stage_.at(stage_.red, shown.state.red.position);
+  const Rectangle red = stage_.at(1, shown);
   // By whole pixels, they stay as they are while red hardly moves.
   const Point from{std::round(red.x + kLinesInRed * red.width), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
@@ -81,13 +82,7 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
                                      palette_.accent,
                                      face_});
   }
-  if (marks_) {
-    const auto red_face = [&](double gap) { return face_px_ + gap * px_per_unit + blue_width_px_; };
-    const auto x_of = [&](const Hit& hit) {
-      return hit.kind == CollisionKind::wall ? face_px_ : red_face(hit.gaps.y2);
-    };
-    marks_->add(shown, {face_px_, red_face(shown.gaps.y2)}, x_of, list.items);
-  }
+  if (marks_) add_marks(shown, px_per_unit, list.items);
   list.items.emplace_back(RectangleItem{ItemId::loupe,
                                         {0, 0, bounds_.width, bounds_.height},
                                         std::nullopt,
@@ -95,47 +90,59 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
   return list;
 }
 
+void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
+                           std::vector<DrawItem>& items) const {
+  const Contact wall =
+      contact_of(face_px_, floor_px_, HUGE_VAL, blue_height_px_, palette_.blue.line);
+  const auto blocks = [&](double gap) {
+    return contact_of(face_px_ + gap * px_per_unit + blue_width_px_, floor_px_, blue_height_px_,
+                      red_height_px_, palette_.red.line);
+  };
+  for (std::size_t n = 0; n < shown.hits.size(); ++n) {
+    const Hit& hit = shown.hits[n];
+    marks_->add_arc(nth(ItemId::hits, n), hit.age_s, hit.pair[1] == 1 ? blocks(hit.gaps.y2) : wall,
+                    items);
+  }
+  marks_->add_glow(shown.hits_per_s, std::array{wall, blocks(shown.gaps.y2)}, items);
+}
+
 void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
                             std::vector<DrawItem>& items) const {
-  const double floor_px = dimensions_.floor_px;
   const double red_x = face_px_ + shown.gaps.y2 * px_per_unit + blue_width_px_;
   // Red's far side is outside.
   const double red_width = std::max(0.0, bounds_.width - red_x) + 2 * line_px_;
-  add_rectangles(
-      ItemId::red_block,
-      block_at({red_x, floor_px - dimensions_.red_height_px, red_width, dimensions_.red_height_px},
-               palette_.red, line_px_),
-      items);
+  add_rectangles(ItemId::red_block,
+                 block_at({red_x, floor_px_ - red_height_px_, red_width, red_height_px_},
+                          palette_.red, line_px_),
+                 items);
   const double hits = shown.hits_per_s / frames_per_s_;
   const double swept =
       std::clamp((hits - kSweepHits / 4) / (kSweepHits - kSweepHits / 4), 0.0, 1.0);
   if (swept > 0) {
-    items.emplace_back(RectangleItem{nth(ItemId::red_block, kSweep),
-                                     {face_px_, floor_px - dimensions_.blue_height_px,
-                                      red_x - face_px_, dimensions_.blue_height_px},
-                                     faded(palette_.blue.fill, swept * kSweepAlpha),
-                                     std::nullopt});
+    items.emplace_back(
+        RectangleItem{nth(ItemId::red_block, kSweep),
+                      {face_px_, floor_px_ - blue_height_px_, red_x - face_px_, blue_height_px_},
+                      faded(palette_.blue.fill, swept * kSweepAlpha),
+                      std::nullopt});
   }
   add_blue(face_px_ + shown.gaps.y1 * px_per_unit, 1 - swept * (1 - kFastBlue), items);
 }
 
 void LoupeInset::add_blue(double x_px, double seen, std::vector<DrawItem>& items) const {
-  const double floor_px = dimensions_.floor_px;
-  const double top = floor_px - dimensions_.blue_height_px;
+  const double top = floor_px_ - blue_height_px_;
   BlockColors colors = palette_.blue;
   colors.fill = faded(colors.fill, seen);
   colors.edge = faded(colors.edge, seen);
-  add_rectangles(
-      ItemId::blue_block,
-      block_at({x_px, top, blue_width_px_, dimensions_.blue_height_px}, colors, line_px_), items);
+  add_rectangles(ItemId::blue_block,
+                 block_at({x_px, top, blue_width_px_, blue_height_px_}, colors, line_px_), items);
   const double half = kCutWidth / 2 * sizes_.short_side;
   const double slant = kCutSlant / 2 * sizes_.short_side;
   const double middle = x_px + blue_width_px_ / 2;
   items.emplace_back(PathItem{nth(ItemId::blue_block, kCut),
                               std::vector<Point>{{middle - half + slant, top},
                                                  {middle + half + slant, top},
-                                                 {middle + half - slant, floor_px},
-                                                 {middle - half - slant, floor_px}},
+                                                 {middle + half - slant, floor_px_},
+                                                 {middle - half - slant, floor_px_}},
                               true, faded(palette_.background, seen), std::nullopt});
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/overlays/overlays.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {
@@ -57,11 +57,11 @@ class LoupePlacer {
   double blocks_right() const {
     const Layout& layout = context_.layout;
     const Show& show = context_.scene.show;
-    const double face = layout.at(to_double(context_.scene.system.wall_face), 0).x;
+    const double face = layout.at(to_double(*line_walls(context_.bodies.system).left), 0).x;
     double right = face + style::kMaxLoupeGap * short_side() +
-                   (layout.blue.width + layout.red.width) * layout.scale;
+                   (layout.shapes[0].width + layout.shapes[1].width) * layout.scale;
     if (show.has(Overlay::velocities)) right += kVelocityOverhang * short_side();
-    if (show.has(Overlay::masses) && has_mass_above(context_.scene, layout, context_.font)) {
+    if (!labelled_above(context_, layout).empty()) {
       right += kMassOverhang * short_side();
     }
     return right + loupe_style::kOutside * short_side();
@@ -87,7 +87,7 @@ class LoupePlacer {
     const Layout& layout = context_.layout;
     double above = loupe_style::kOutside;
     if (show.has(Overlay::velocities)) above += kArrowRoom;
-    if (show.has(Overlay::masses) && has_mass_above(context_.scene, layout, context_.font)) {
+    if (!labelled_above(context_, layout).empty()) {
       above += kMassRoom;
     }
     return layout.top_px() - above * short_side();

@@ -1,4 +1,4 @@
-// The stage and all overlays.
+// Overlays beside the stage.
 // In: a drawing context. Out: drawables.
 #pragma once
 
@@ -11,45 +11,6 @@
 #include "draw/layout.hpp"
 
 namespace piblocks {
-
-// Room for overlays around the blocks, in fractions of the frame's shorter side.
-inline constexpr double kArrowRoom = 0.08;
-inline constexpr double kMassRoom = 0.052;
-inline constexpr double kRulerRoom = 0.07;
-
-/// The floor is on whole pixels, and room above the blocks may be short by one.
-inline constexpr double kRounded_px = 1;
-
-/// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
-/// that do not move sharp, and in the article's picture the upper and lower edges of blocks of
-/// width 1.
-inline constexpr double kLeastRounded_px = 16;
-
-/// Room that a mass needs above its block, in pixels.
-double mass_room_px(const Sizes& sizes);
-/// Room that the scene's overlays need above the taller block, in pixels.
-double room_above_px(const Scene& scene, const Layout& layout, const Font& font);
-/// The same below the floor.
-double room_below_px(const Scene& scene);
-
-/// The article's picture: wall, blocks and counter.
-/// @param lit_digits  light up when the counter shows them in their places; may be empty
-/// @param behind      is drawn before the blocks; may be empty
-Drawable article_stage(const DrawingContext& context, std::string lit_digits, Drawable behind);
-
-/// Wall, floor and blocks. @param behind  is drawn before the blocks; may be empty
-Drawable stage(const DrawingContext& context, Drawable behind);
-
-/// Each block's mass, on it or, if that is too narrow for the heavier one's, above it.
-/// @throws UsageError if the lighter block is too narrow.
-Drawable mass_labels(const DrawingContext& context);
-/// Whether one mass is above its block.
-bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font);
-
-/// Arrows above the blocks, with figures. Velocities of one run differ by the square root of the
-/// mass ratio, so lengths grow less and less with the velocity, up to a longest one.
-/// @throws UsageError if the view has no room above the blocks.
-Drawable velocity_arrows(const DrawingContext& context);
 
 /// A scale of positions below the blocks. @throws UsageError if the view has no room there.
 Drawable ruler(const DrawingContext& context);

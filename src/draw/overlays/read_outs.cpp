@@ -2,8 +2,12 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
@@ -48,13 +52,12 @@ int time_decimals(const Scene& scene, const Log& log) {
 }
 
 ReadOut time_read_out(const DrawingContext& context) {
-  const auto text = [decimals =
-                         time_decimals(context.scene, context.timeline)](const Rational& time) {
+  const auto text = [decimals = time_decimals(context.scene, context.log)](const Rational& time) {
     return fmt::format("t = {}", fixed_text(time, decimals));
   };
   Rational end = 0;
-  if (has_span(context.scene, context.timeline)) {
-    const Span span = span_of(context.scene, context.timeline);
+  if (has_span(context.scene, context.log)) {
+    const Span span = span_of(context.scene, context.log);
     end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
   }
   return {"time", text(-end), [=](const FrameState& shown) { return text(shown.time); },
@@ -149,8 +152,11 @@ struct Scale {
   std::string unit;
 };
 
+/// Whether there is a word for each body, so that its share of a sum can be shown.
+bool has_names(const DrawingContext& context) { return context.pair() != nullptr; }
+
 ReadOut energy_read_out(const DrawingContext& context, int digits) {
-  const BlockSystem& system = context.scene.system;
+  const BlockSystem& system = context.two_blocks().blocks();
   const Rational exact_sum = twice_energy(system) / 2;
   const Scale scale(magnitude_of(exact_sum), digits);
   const double sum = scale.is_plain ? to_double(exact_sum) : scale.largest.mantissa;
@@ -161,44 +167,111 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
   };
   // A block's velocity if it had all the energy. It may be beyond the range of a double.
   const auto fastest = [&](const Block& block) { return root_of(2 * exact_sum / block.mass); };
-  const auto energy = [sum](const Motion& block, const mpf_class& most) {
-    const double share = most > 0 ? mpf_class(block.velocity / most).get_d() : 0;
+  const auto energy = [sum](const BodyMotion& block, const mpf_class& most) {
+    const double share = most > 0 ? mpf_class(block.velocity[0] / most).get_d() : 0;
     return sum * std::min(1.0, share * share);
   };
   const auto shown_text = [=, most_of_red = fastest(system.red),
                            most_of_blue = fastest(system.blue),
                            is_kept = is_elastic(system)](const FrameState& shown) {
-    const double red = energy(shown.state.red, most_of_red);
-    const double blue = is_kept ? sum - red : energy(shown.state.blue, most_of_blue);
+    const double red = energy(shown.state.bodies[1], most_of_red);
+    const double blue = is_kept ? sum - red : energy(shown.state.bodies[0], most_of_blue);
     return text(red, blue, is_kept ? sum : red + blue);
   };
   return {"energy", text(sum, sum, sum), shown_text, context.palette.text};
 }
 
+/// The momenta of bodies, and their sum. Walls and fixed bodies take some of it.
+class Momenta {
+ public:
+  Momenta(const DrawingContext& context, int digits)
+      : system_(context.bodies.system),
+        // The heaviest body has the most momentum when it has all the energy.
+        most_squared_(twice_energy(system_) * heaviest(system_)),
+        scale_(root_magnitude_of(most_squared_), digits),
+        most_(scale_.largest.mantissa *
+              (scale_.is_plain ? to_double(power_of_ten(scale_.largest.exponent)) : 1)) {
+    if (has_names(context)) names_ = {context.palette.blue.name, context.palette.red.name};
+    for (const Body& body : system_.bodies) factors_.push_back(factor_of(body.mass.value_or(0)));
+    for (const std::size_t axis : {0U, 1U}) {
+      if (!is_kept(axis)) continue;
+      kept_.at(axis) = sum_of(
+          axis, [&](std::size_t i) { return to_double(system_.bodies[i].velocity.at(axis)); });
+    }
+  }
+
+  std::string widest() const { return text({-most_, -most_}, {-most_, -most_}); }
+
+  std::string operator()(const FrameState& shown) const {
+    const std::vector<BodyMotion>& bodies = shown.state.bodies;
+    std::vector<double> each;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      each.push_back(mpf_class(factors_[i] * bodies[i].velocity[0]).get_d());
+    }
+    std::array<double, 2> sum{};
+    for (const std::size_t axis : {0U, 1U}) {
+      const auto velocity = [&](std::size_t i) { return bodies[i].velocity.at(axis); };
+      sum.at(axis) = kept_.at(axis) ? *kept_.at(axis) : sum_of(axis, velocity);
+    }
+    return text(each, sum);
+  }
+
+ private:
+  static Rational heaviest(const BodySystem& system) {
+    Rational most = 0;
+    for (const Body& body : system.bodies) most = std::max(most, body.mass.value_or(0));
+    return most;
+  }
+
+  /// Masses may be beyond the range of a double, and so may these factors.
+  mpf_class factor_of(const Rational& mass) const {
+    if (most_squared_ == 0) return 0;
+    return most_ * root_of(mass * mass / most_squared_);
+  }
+
+  /// Whether nothing takes any of it.
+  bool is_kept(std::size_t axis) const {
+    return std::ranges::all_of(system_.bodies, [](const Body& body) { return bool(body.mass); }) &&
+           std::ranges::all_of(system_.walls,
+                               [=](const Wall& wall) { return wall.normal.at(axis) == 0; });
+  }
+
+  /// From the last body to the first.
+  double sum_of(std::size_t axis, const auto& velocity) const {
+    if (axis == 1 && system_.dimensions == 1) return 0;
+    double sum = 0;
+    for (std::size_t i = factors_.size(); i-- > 0;) {
+      sum += mpf_class(factors_[i] * velocity(i)).get_d();
+    }
+    return sum;
+  }
+
+  std::string text(const std::vector<double>& each, const std::array<double, 2>& sum) const {
+    if (!names_.empty()) {
+      return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale_.unit, names_[1],
+                         scale_.text(each[1]), names_[0], scale_.text(each[0]),
+                         scale_.text(sum[0]));
+    }
+    if (system_.dimensions == 1) {
+      return fmt::format("Momentum{} {}", scale_.unit, scale_.text(sum[0]));
+    }
+    return fmt::format("Momentum{} ({}, {})", scale_.unit, scale_.text(sum[0]),
+                       scale_.text(sum[1]));
+  }
+
+  BodySystem system_;
+  Rational most_squared_;
+  Scale scale_;
+  double most_;
+  std::vector<const char*> names_;  ///< of the bodies if the momentum of each is shown
+  std::vector<mpf_class> factors_;  ///< from a velocity to a momentum
+  std::array<std::optional<double>, 2> kept_;
+};
+
 ReadOut momentum_read_out(const DrawingContext& context, int digits) {
-  const BlockSystem& system = context.scene.system;
-  // The heavier block has the most momentum when it has all the energy.
-  const Rational most_squared = twice_energy(system) * std::max(system.blue.mass, system.red.mass);
-  const Scale scale(root_magnitude_of(most_squared), digits);
-  const auto text = [scale, red_name = context.palette.red.name,
-                     blue_name = context.palette.blue.name](double red, double blue) {
-    return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale.unit, red_name, scale.text(red),
-                       blue_name, scale.text(blue), scale.text(red + blue));
-  };
-  const double most = scale.largest.mantissa *
-                      (scale.is_plain ? to_double(power_of_ten(scale.largest.exponent)) : 1);
-  // Masses may be beyond the range of a double, and so may these factors.
-  const auto momentum_per_velocity = [&](const Block& block) -> mpf_class {
-    if (most_squared == 0) return 0;
-    return most * root_of(block.mass * block.mass / most_squared);
-  };
-  const auto shown_text = [text, red_factor = momentum_per_velocity(system.red),
-                           blue_factor =
-                               momentum_per_velocity(system.blue)](const FrameState& shown) {
-    return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
-                mpf_class(blue_factor * shown.state.blue.velocity).get_d());
-  };
-  return {"momentum", text(-most, -most), shown_text, context.palette.text};
+  Momenta momenta(context, digits);
+  std::string widest = momenta.widest();
+  return {"momentum", std::move(widest), std::move(momenta), context.palette.text};
 }
 
 double room_for_read_outs(const DrawingContext& context) {
@@ -215,31 +288,11 @@ ReadOut fitted(const DrawingContext& context,
   }
 }
 
-/// Sums over all bodies. Elastic collisions keep the energy; walls take momentum.
-ReadOut sums_read_out(const DrawingContext& context, Overlay overlay) {
-  const Bodies& bodies = *context.scene.bodies;
-  std::vector<double> masses;
-  for (const Body& body : bodies.system.bodies) {
-    masses.push_back(body.mass ? to_double(*body.mass) : 0);
-  }
-  const bool is_plane = bodies.system.dimensions == 2;
-  const auto text = [=](const std::vector<BodyMotion>& motions) {
-    double energy = 0;
-    std::array<double, 2> momentum = {};
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      const auto& [x, y] = motions[i].velocity;
-      energy += masses[i] * (x * x + y * y) / 2;
-      momentum[0] += masses[i] * x;
-      momentum[1] += masses[i] * y;
-    }
-    const auto number = [](double value) { return short_text(value); };
-    if (overlay == Overlay::energy) return fmt::format("Energy {}", number(energy));
-    if (!is_plane) return fmt::format("Momentum {}", number(momentum[0]));
-    return fmt::format("Momentum ({}, {})", number(momentum[0]), number(momentum[1]));
-  };
-  return {"energy",
-          overlay == Overlay::energy ? "Energy −8.8888e+88" : "Momentum (−8.8888e+88, −8.8888e+88)",
-          [=](const FrameState& shown) { return text(shown.bodies); }, context.palette.text};
+/// The sum over all bodies, which never changes.
+ReadOut energy_sum_read_out(const DrawingContext& context) {
+  const std::string text =
+      fmt::format("Energy {}", short_text(Rational(twice_energy(context.bodies.system) / 2)));
+  return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};
 }
 
 /// From which time on the picture may be wrong.
@@ -252,28 +305,25 @@ ReadOut certainty_read_out(const DrawingContext& context, double until) {
           context.palette.accent};
 }
 
-std::vector<ReadOut> read_outs_of_bodies(const DrawingContext& context) {
-  const Show& show = context.scene.show;
-  std::vector<ReadOut> read_outs;
-  if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
-  if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
-  for (const Overlay overlay : {Overlay::energy, Overlay::momentum}) {
-    if (show.has(overlay)) read_outs.push_back(sums_read_out(context, overlay));
-  }
-  if (context.certain_until) {
-    read_outs.push_back(certainty_read_out(context, *context.certain_until));
-  }
-  return read_outs;
-}
-
 std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
-  if (context.scene.bodies) return read_outs_of_bodies(context);
   const Show& show = context.scene.show;
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
   if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
-  if (show.has(Overlay::energy)) read_outs.push_back(fitted(context, energy_read_out));
-  if (show.has(Overlay::momentum)) read_outs.push_back(fitted(context, momentum_read_out));
+  if (show.has(Overlay::energy)) {
+    read_outs.push_back(has_names(context) ? fitted(context, energy_read_out)
+                                           : energy_sum_read_out(context));
+  }
+  if (show.has(Overlay::momentum)) {
+    constexpr int kDigitsOfSum = 4;
+    read_outs.push_back(has_names(context) ? fitted(context, momentum_read_out)
+                                           : momentum_read_out(context, kDigitsOfSum));
+  }
+  if (!has_span(context.scene, context.log)) return read_outs;
+  const Span span = span_of(context.scene, context.log);
+  if (const std::optional<double> until = context.log.certain_until(span.to)) {
+    read_outs.push_back(certainty_read_out(context, *until));
+  }
   return read_outs;
 }
 

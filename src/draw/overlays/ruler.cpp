@@ -7,6 +7,7 @@
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {
@@ -47,14 +48,26 @@ Drawable ruler(const DrawingContext& context) {
                     "{:.0f}; leave out 'ruler', or make the frame higher",
                     below_px, std::max(0.0, layout.below_px)));
   }
-  const double left = to_double(std::max(scene.view.x.low, scene.system.wall_face));
-  const double right = to_double(scene.view.x.high);
-  const double wall_px = layout.at(to_double(scene.system.wall_face), 0).x;
+  const LineWalls walls = line_walls(context.bodies.system);
+  double left = to_double(scene.view.x.low);
+  double right = to_double(scene.view.x.high);
+  // Of the walls' feet.
+  double first_px = 0;
+  double end_px = scene.view.width_px;
   // Figures beside the foot of the wall are not below it.
   const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.wall_bottom_px;
-  const double wall_end_px = are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
-  const double first_px = std::max(sizes.margin, wall_end_px);
-  const double end_px = std::min(scene.view.width_px - sizes.margin, layout.content_right_px);
+  if (walls.left) {
+    left = std::max(left, to_double(*walls.left));
+    if (!are_below_wall)
+      first_px = layout.at(to_double(*walls.left), 0).x + kBesideWall_em * size_px;
+  }
+  if (walls.right) {
+    right = std::min(right, to_double(*walls.right));
+    if (!are_below_wall)
+      end_px = layout.at(to_double(*walls.right), 0).x - kBesideWall_em * size_px;
+  }
+  first_px = std::max(sizes.margin, first_px);
+  end_px = std::min({end_px, scene.view.width_px - sizes.margin, layout.content_right_px});
   const FigureAxis axis{
       .low = left, .high = right, .em = size_px / layout.scale, .gap_em = kLeastGap_em};
   const Ticks ticks =

@@ -2,9 +2,10 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
@@ -22,75 +23,93 @@ constexpr double kBesideBars_em = 0.6;
 constexpr double kInBar_em = 0.4;
 constexpr double kLeastBars_em = 5;
 constexpr int kDecimals = 3;
+/// More blocks share one row of momentum if there is no room for all.
+constexpr std::size_t kAlwaysRows = 2;
 /// A momentum at time 0 that is a smaller part of the largest one is no good unit.
 constexpr double kLeastUnit = 0.1;
 
 /// Momenta in a unit in which the largest ones are about 1.
 struct Momenta {
-  explicit Momenta(const BlockSystem& system) {
+  explicit Momenta(const BodySystem& system) {
     const Rational energy = twice_energy(system);
+    factors.resize(system.bodies.size());
     if (energy == 0) return;
-    const Rational total =
-        system.red.mass * system.red.velocity + system.blue.mass * system.blue.velocity;
-    const mpf_class largest = root_of(energy * std::max(system.red.mass, system.blue.mass));
+    Rational total = 0;
+    Rational masses = 0;
+    Rational heaviest = 0;
+    for (const Body& body : system.bodies) {
+      if (!body.mass) continue;
+      total += *body.mass * body.velocity[0];
+      masses += *body.mass;
+      heaviest = std::max(heaviest, *body.mass);
+    }
+    const mpf_class largest = root_of(energy * heaviest);
     mpf_class unit(abs(total), largest.get_prec());
     if (unit < kLeastUnit * largest) unit = largest;
-    red_factor = mpf_class(system.red.mass, largest.get_prec()) / unit;
-    blue_factor = mpf_class(system.blue.mass, largest.get_prec()) / unit;
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+      const auto& mass = system.bodies[i].mass;
+      if (mass) factors[i] = mpf_class(*mass, largest.get_prec()) / unit;
+    }
     sum = mpf_class(mpf_class(total, largest.get_prec()) / unit).get_d();
     most = mpf_class(largest / unit).get_d();
-    const mpf_class most_of_both = root_of(energy * (system.red.mass + system.blue.mass));
-    least = sum - mpf_class(most_of_both / unit).get_d();
+    const mpf_class most_of_all = root_of(energy * masses);
+    least = sum - mpf_class(most_of_all / unit).get_d();
   }
 
-  // From a velocity; they may be beyond the range of a double.
-  mpf_class red_factor;
-  mpf_class blue_factor;
-  double sum = 0;     ///< at time 0, and always with what the wall has taken since
+  /// From a body's velocity; they may be beyond the range of a double.
+  std::vector<mpf_class> factors;
+  double sum = 0;     ///< at time 0, and always with what walls have taken since
   double most = 1;    ///< of a block
-  double least = -1;  ///< of the wall
+  double least = -1;  ///< of walls
 };
 
-// Rows of momentum, from top to bottom.
-constexpr std::size_t kRedRow = 0;
-constexpr std::size_t kBlueRow = 1;
-constexpr std::size_t kWallRow = 2;
-constexpr std::size_t kSumRow = 3;
-constexpr std::size_t kRows = 4;
+/// A row of momentum.
+struct Row {
+  std::string name;
+  Color fill;
+  Color label;                      ///< of its name and its figure
+  std::vector<std::size_t> bodies;  ///< whose momentum it shows; of walls and of the sum none
+};
 
 /// Energy as one bar that the blocks share. Momentum as bars on both sides of zero: those of the
-/// blocks and the wall's, which always add up to the same.
+/// blocks and that of walls and fixed blocks, which always add up to the same.
 class ConservationPanel {
  public:
   ConservationPanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of(context)),
-        momenta_(context.scene.system),
+        colors_(context.colors),
+        momenta_(context.bodies.system),
         face_(context.font.face() == Face::article ? Face::article : Face::digits),
         widths_(context.fonts.of(face_), "0123456789.,−% ") {
-    const Rational energy = twice_energy(context.scene.system);
-    if (energy > 0) red_factor_ = root_of(context.scene.system.red.mass / energy);
+    const Rational energy = twice_energy(context.bodies.system);
+    for (const Body& body : context.bodies.system.bodies) {
+      const bool has_part = energy > 0 && body.mass;
+      energy_factors_.push_back(has_part ? root_of(*body.mass / energy) : mpf_class(0));
+    }
     moves_ = energy > 0;
+    make_rows(context);
     place_rows();
     place_columns(context);
-    add_still(context);
+    add_still();
     diagram_.finish();
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(diagram_.item());
     if (!moves_) return;
-    const double red = shown.state.red.velocity;
-    const double share = mpf_class(red_factor_ * red).get_d();
-    add_energy(std::clamp(share * share, 0.0, 1.0), items);
-    std::array<double, kRows> values{};
-    values[kRedRow] = mpf_class(momenta_.red_factor * red).get_d();
-    values[kBlueRow] = mpf_class(momenta_.blue_factor * shown.state.blue.velocity).get_d();
-    values[kWallRow] = momenta_.sum - values[kRedRow] - values[kBlueRow];
-    const std::array colors = colors_of_rows();
-    for (const std::size_t row : {kRedRow, kBlueRow, kWallRow}) {
-      items.emplace_back(RectangleItem{diagram_.moving(3 + 2 * row), bar_of(row, values[row]),
-                                       colors[row].first, std::nullopt});
-      add_figure(row, values[row], 4 + 2 * row, items);
+    add_energy(shown.state.bodies, items);
+    const std::size_t first = 2 * colors_.size() - 1;  // after all parts of the energy
+    double rest = momenta_.sum;
+    for (std::size_t row = 0; row < moving_rows_; ++row) {
+      double value = 0;
+      for (const std::size_t body : rows_[row].bodies) {
+        value += mpf_class(momenta_.factors[body] * shown.state.bodies[body].velocity[0]).get_d();
+      }
+      if (rows_[row].bodies.empty()) value = rest;
+      rest -= value;
+      items.emplace_back(RectangleItem{diagram_.moving(first + 2 * row), bar_of(row, value),
+                                       rows_[row].fill, std::nullopt});
+      add_figure(row, value, first + 2 * row + 1, items);
     }
   }
 
@@ -106,52 +125,73 @@ class ConservationPanel {
             set.text("Conservation")};
   }
 
-  /// Of the bar and of its name.
-  std::array<std::pair<Color, Color>, kRows> colors_of_rows() const {
-    const Palette& palette = diagram_.palette();
-    return {{{palette.red.fill, palette.red.label},
-             {palette.blue.fill, palette.blue.label},
-             {palette.wall, palette.text},
-             {palette.muted, palette.muted}}};
+  /// From the last block to the first, walls, and the sum.
+  void make_rows(const DrawingContext& context) {
+    const Palette& palette = context.palette;
+    const BodySystem& system = context.bodies.system;
+    const bool is_pair = context.pair() != nullptr;
+    for (std::size_t i = system.bodies.size(); i-- > 0;) {
+      if (!system.bodies[i].mass) continue;
+      std::string name = context.bodies.styles[i].label;
+      if (name.empty()) name = is_pair ? colors_[i].name : fmt::format("{}", i + 1);
+      rows_.push_back({std::move(name), colors_[i].fill, colors_[i].label, {i}});
+    }
+    const std::size_t movable = rows_.size();
+    if (!system.walls.empty() || movable < system.bodies.size()) {
+      rows_.push_back({"wall", palette.wall, palette.text, {}});
+    }
+    moving_rows_ = rows_.size();
+    rows_.push_back({"sum", palette.muted, palette.muted, {}});
+    if (movable <= kAlwaysRows || height_em(moving_rows_) * diagram_.text_px() <= inside().height) {
+      return;
+    }
+    // Many blocks share a row.
+    Row all{"blocks", palette.text, palette.text, {}};
+    for (std::size_t row = 0; row < movable; ++row) all.bodies.push_back(rows_[row].bodies.front());
+    rows_.erase(rows_.begin(), rows_.begin() + std::ptrdiff_t(movable));
+    rows_.insert(rows_.begin(), std::move(all));
+    moving_rows_ = rows_.size() - 1;
   }
 
-  /// What has no room is left out: first the row of the sum, then the heading.
+  const Rectangle& inside() const { return diagram_.inside(); }
+  static double height_em(std::size_t rows) {
+    return kEnergyRow_em + kMomentumRow_em * double(rows);
+  }
+
+  /// What has no room is left out: first the heading, then the row of the sum.
   void place_rows() {
-    const Rectangle& inside = diagram_.inside();
     const double em = diagram_.text_px();
-    const auto height_em = [&] {
-      return kEnergyRow_em + kMomentumRow_em * double((has_sum_ ? 4 : 3) + (has_heading_ ? 1 : 0));
+    const auto height_px = [&] {
+      return height_em(moving_rows_ + (has_sum_ ? 1 : 0) + (has_heading_ ? 1 : 0)) * em;
     };
-    if (height_em() * em > inside.height) has_heading_ = false;
-    if (height_em() * em > inside.height) has_sum_ = false;
-    if (height_em() * em > inside.height) {
+    if (height_px() > inside().height) has_heading_ = false;
+    if (height_px() > inside().height) has_sum_ = false;
+    if (height_px() > inside().height) {
       throw UsageError(fmt::format(
           "show.panels: the bars of the diagram 'conservation' need {:.0f} pixels, and there are "
           "{:.0f}; leave something out, or make the frame higher",
-          height_em() * em, inside.height));
+          height_px(), inside().height));
     }
-    const double stretch = std::clamp(inside.height / (height_em() * em), 1.0, kMostStretch);
+    const double stretch = std::clamp(inside().height / height_px(), 1.0, kMostStretch);
     row_px_ = stretch * kMomentumRow_em * em;
     energy_px_ = stretch * kEnergyRow_em * em;
-    double y = inside.y + energy_px_;
-    if (has_heading_) y += row_px_;
-    top_ = y;
+    top_ = inside().y + energy_px_;
+    if (has_heading_) top_ += row_px_;
+    if (!has_sum_) rows_.pop_back();
   }
 
   void place_columns(const DrawingContext& context) {
-    const Rectangle& inside = diagram_.inside();
     const double em = diagram_.text_px();
-    names_ = {context.palette.red.name, context.palette.blue.name, "wall", "sum"};
-    double label = context.font.width_em("energy");
-    for (const std::string& name : names_) label = std::max(label, context.font.width_em(name));
+    double label = std::max(context.font.width_em("energy"), context.font.width_em("sum"));
+    for (const Row& row : rows_) label = std::max(label, context.font.width_em(row.name));
     const double figure = std::max(widths_.width_em(text_of(momenta_.least)),
                                    widths_.width_em(text_of(-momenta_.most)));
-    left_ = std::round(inside.x + (label + kBesideBars_em) * em);
-    right_ = std::round(inside.x + inside.width - (figure + kBesideBars_em) * em);
+    left_ = std::round(inside().x + (label + kBesideBars_em) * em);
+    right_ = std::round(inside().x + inside().width - (figure + kBesideBars_em) * em);
     has_figures_ = right_ - left_ >= kLeastBars_em * em;
-    if (!has_figures_) right_ = std::round(inside.x + inside.width);
+    if (!has_figures_) right_ = std::round(inside().x + inside().width);
     // The bar of energy ends where the figures do.
-    energy_right_ = std::round(inside.x + inside.width);
+    energy_right_ = std::round(inside().x + inside().width);
   }
 
   double baseline(double top, double height) const {
@@ -176,63 +216,70 @@ class ConservationPanel {
             energy_right_ - left_, height};
   }
 
-  /// All that stays: names, the bar of energy in blue, which red covers, zero, the sum.
-  void add_still(const DrawingContext& context) {
+  /// All that stays: names, the bar of energy in the first block's colour, which others cover,
+  /// zero, the sum.
+  void add_still() {
     const Palette& palette = diagram_.palette();
     const Rectangle bar = energy_bar();
-    const double left = diagram_.inside().x;
-    diagram_.text("energy", {left, baseline(diagram_.inside().y, energy_px_)}, 0, palette.muted);
+    const double left = inside().x;
+    diagram_.text("energy", {left, baseline(inside().y, energy_px_)}, 0, palette.muted);
     if (moves_) {
-      diagram_.box(bar, context.palette.blue.fill);
+      diagram_.box(bar, colors_.front().fill);
     } else {
       diagram_.box(bar, std::nullopt, palette.muted);
     }
     if (has_heading_) {
       diagram_.text("momentum", {left, baseline(top_ - row_px_, row_px_)}, 0, palette.muted);
     }
-    const std::array colors = colors_of_rows();
-    const std::size_t rows = has_sum_ ? kRows : kSumRow;
-    for (std::size_t row = 0; row < rows; ++row) {
-      diagram_.text(names_.at(row), {left, baseline(row_top(row), row_px_)}, 0,
-                    colors.at(row).second);
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      diagram_.text(rows_[row].name, {left, baseline(row_top(row), row_px_)}, 0, rows_[row].label);
     }
     const double zero = x_of(0);
-    diagram_.line({{zero, top_}, {zero, row_top(rows)}}, palette.muted);
+    diagram_.line({{zero, top_}, {zero, row_top(rows_.size())}}, palette.muted);
     if (!has_sum_) return;
-    diagram_.box(bar_of(kSumRow, momenta_.sum), palette.muted);
+    const std::size_t sum = moving_rows_;
+    diagram_.box(bar_of(sum, momenta_.sum), palette.muted);
     if (!has_figures_) return;
     const std::string text = text_of(momenta_.sum);
-    const double x = diagram_.inside().x + diagram_.inside().width;
     const double width = widths_.width_em(text) * diagram_.text_px();
     diagram_.formula(diagram_.setter().digits(text),
-                     {x - width, baseline(row_top(kSumRow), row_px_)}, 0, palette.muted);
+                     {inside().x + inside().width - width, baseline(row_top(sum), row_px_)}, 0,
+                     palette.muted);
   }
 
-  void add_energy(double red_share, std::vector<DrawItem>& items) const {
-    const Palette& palette = diagram_.palette();
+  /// Parts of the bar from the last block to the first, which has what is left.
+  void add_energy(const std::vector<BodyMotion>& bodies, std::vector<DrawItem>& items) const {
     const Rectangle bar = energy_bar();
-    const double red_px = red_share * bar.width;
-    items.emplace_back(RectangleItem{
-        diagram_.moving(0), {bar.x, bar.y, red_px, bar.height}, palette.red.fill, std::nullopt});
-    // Both figures add up to 100.
-    const long tenths = std::lround(1000 * red_share);
     const double em = diagram_.text_px();
-    const double y = baseline(bar.y, bar.height);
-    const std::string red = fixed_text(double(tenths) / 10, 1) + " %";
-    const std::string blue = fixed_text(double(1000 - tenths) / 10, 1) + " %";
-    const double blue_em = widths_.width_em(blue) + kInBar_em;
-    if ((widths_.width_em(red) + 2 * kInBar_em) * em <= red_px) {
-      items.emplace_back(TextItem{
-          diagram_.moving(1), {bar.x + kInBar_em * em, y}, red, em, palette.red.text, face_});
+    const std::size_t count = bodies.size();
+    std::vector<DrawItem> figures;
+    double begin = 0;
+    for (std::size_t i = count; i-- > 0;) {
+      const double root = mpf_class(energy_factors_[i] * bodies[i].velocity[0]).get_d();
+      const double end = i == 0 ? 1 : std::clamp(begin + root * root, begin, 1.0);
+      const Rectangle part{bar.x + begin * bar.width, bar.y, end * bar.width - begin * bar.width,
+                           bar.height};
+      if (i > 0) {
+        items.emplace_back(
+            RectangleItem{diagram_.moving(count - 1 - i), part, colors_[i].fill, std::nullopt});
+      }
+      // All figures add up to 100.
+      const long tenths = std::lround(1000 * end) - std::lround(1000 * begin);
+      const std::string text = fixed_text(double(tenths) / 10, 1) + " %";
+      const double width_em = widths_.width_em(text) + kInBar_em;
+      if ((width_em + kInBar_em) * em <= part.width) {
+        // That of the last part is at its right end.
+        const double left = i == 0 ? part.x + part.width - width_em * em : part.x + kInBar_em * em;
+        figures.emplace_back(TextItem{diagram_.moving(2 * count - 2 - i),
+                                      {left, baseline(bar.y, bar.height)},
+                                      text,
+                                      em,
+                                      colors_[i].text,
+                                      face_});
+      }
+      begin = end;
     }
-    if ((blue_em + kInBar_em) * em <= bar.width - red_px) {
-      items.emplace_back(TextItem{diagram_.moving(2),
-                                  {bar.x + bar.width - blue_em * em, y},
-                                  blue,
-                                  em,
-                                  palette.blue.text,
-                                  face_});
-    }
+    std::ranges::move(figures, std::back_inserter(items));
   }
 
   static std::string text_of(double value) { return fixed_text(value, kDecimals); }
@@ -242,23 +289,25 @@ class ConservationPanel {
     if (!has_figures_) return;
     std::string text = text_of(value);
     const double em = diagram_.text_px();
-    const double right = diagram_.inside().x + diagram_.inside().width;
+    const double right = inside().x + inside().width;
     items.emplace_back(
         TextItem{diagram_.moving(n),
                  {right - widths_.width_em(text) * em, baseline(row_top(row), row_px_)},
                  std::move(text),
                  em,
-                 colors_of_rows().at(row).second,
+                 rows_[row].label,
                  face_});
   }
 
   Diagram diagram_;
+  std::vector<BlockColors> colors_;
   Momenta momenta_;
-  mpf_class red_factor_;  ///< from red's velocity to the root of its share of the energy
+  std::vector<mpf_class> energy_factors_;  ///< from a velocity to the root of its share
   bool moves_ = false;
   Face face_;
   TextWidths widths_;
-  std::array<std::string, kRows> names_;
+  std::vector<Row> rows_;
+  std::size_t moving_rows_ = 0;  ///< all but the sum, which may be left out
   bool has_heading_ = true;
   bool has_sum_ = true;
   bool has_figures_ = true;

@@ -56,7 +56,7 @@ struct TurnFacts {
 
 std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFacts& turn) {
   const FormulaSetter set = context.setter();
-  const Log& log = context.timeline;
+  const Log& log = context.log;
   std::vector<Formula> wordings;
   // The curve ends at the last one of these that the log has.
   if (is_endless(log) && log.count_at(span_of(context.scene, log).to) == log.last()) {
@@ -75,14 +75,14 @@ std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFa
 class CountPanel {
  public:
   CountPanel(const DrawingContext& context, const PanelPlace& place)
-      : span_(span_of(context.scene, context.timeline)),
-        turn_(context.timeline, span_),
+      : span_(span_of(context.scene, context.log)),
+        turn_(context.log, span_),
         diagram_(context, place, titles_of_count(context, turn_)),
-        scale_(context.timeline, span_, context.scene.show.base),
+        scale_(context.log, span_, context.scene.show.base),
         axis_(context, diagram_, indent_em(context)) {
     const Rectangle& plot = axis_.plot();
     const int columns = std::max(1, static_cast<int>(std::ceil(plot.width)));
-    for (const auto& [share, count] : count_curve(context.timeline, span_, columns)) {
+    for (const auto& [share, count] : count_curve(context.log, span_, columns)) {
       curve_.push_back({plot.x + share * plot.width, y_of(count)});
     }
     axis_.add_base(diagram_);
@@ -224,15 +224,15 @@ class CountPanel {
   }
 
   void add_inset(const DrawingContext& context, std::vector<DrawItem>& items) {
-    if (!turn_.is_shown || context.blocks == nullptr) return;
-    const double turn_x = axis_.x_of(to_double(*turn_of(context.timeline)));
+    if (!turn_.is_shown || context.pair() == nullptr) return;
+    const double turn_x = axis_.x_of(to_double(*turn_of(context.log)));
     const Rectangle frame = inset_frame(turn_x);
     if (frame.width == 0) return;
     const Rectangle& plot = axis_.plot();
     const double em = diagram_.text_px();
     const Integer counts = scale_.high - scale_.low;
     const auto part = enlarged_turn(
-        context.log(),
+        context.two_blocks(),
         {.span = span_,
          .width_share = Rational(frame.width) / Rational(plot.width),
          .most_steps = std::max(2, static_cast<int>(frame.width / (kStepWidth_em * em))),
@@ -240,7 +240,7 @@ class CountPanel {
     if (!part) return;
     CountInset inset(*part, frame, plot.height / to_double(Rational(counts)));
     inset.add_frame(diagram_, {turn_x, y_of(part->low + (part->high - part->low) / 2)}, items);
-    inset.add_steps(diagram_, context.log(), items);
+    inset.add_steps(diagram_, context.two_blocks(), items);
     const bool is_left = frame.x < turn_x;
     const double room = is_left ? turn_x - frame.x - kFromTurn_em / 2 * em : frame.width;
     // An inset that does not say what it is would mislead.

@@ -272,7 +272,7 @@ class MarginFigure {
 
 Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place) {
   const int base = context.scene.show.base;
-  const std::optional<unsigned long> places = places_of_pi(context.scene.system, base);
+  const std::optional<unsigned long> places = places_of_pi(context.two_blocks().blocks(), base);
   if (!places) {
     throw UsageError(fmt::format(
         "show.panels: the diagram 'certainty' is about the digits of pi, which this scene does "

@@ -40,9 +40,10 @@ std::vector<Point> corners_of(const Rectangle& box) {
 }
 
 bool shows_a_turn(const DrawingContext& context) {
-  const Span span = span_of(context.scene, context.log());
-  const BlockState first = context.log().blocks_at(span.from);
-  const BlockState last = context.log().blocks_at(span.to);
+  if (context.pair() == nullptr) return false;
+  const Span span = span_of(context.scene, context.log);
+  const BlockState first = context.two_blocks().blocks_at(span.from);
+  const BlockState last = context.two_blocks().blocks_at(span.to);
   return first.red.velocity < 0 && last.red.velocity > 0 && last.count - first.count >= 3;
 }
 
@@ -105,7 +106,7 @@ void Diagram::formula(const Formula& formula, const Point& at, double anchor, co
 }
 
 TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)
-    : span_(span_of(context.scene, context.timeline)),
+    : span_(span_of(context.scene, context.log)),
       from_(to_double(span_.from)),
       length_(to_double(span_.to - span_.from)),
       plot_(diagram.inside()) {

@@ -34,12 +34,22 @@ Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place);
 /// How near the count comes to a wrong digit of pi.
 /// @throws UsageError if the scene does not count pi, or the panel is too small.
 Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place);
-/// Both gaps against time.
+/// Both gaps against time; where there are other bodies, as positions_panel().
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions so far against time.
 Drawable count_panel(const DrawingContext& context, const PanelPlace& place);
 /// Bars of energy and momentum.
 Drawable conservation_panel(const DrawingContext& context, const PanelPlace& place);
+
+/// Where each block of a line is, against time.
+Drawable positions_panel(const DrawingContext& context, const PanelPlace& place);
+/// How many discs or blocks have which speed, and the distribution that Maxwell found.
+/// @throws UsageError if there are too few.
+Drawable speeds_panel(const DrawingContext& context, const PanelPlace& place);
+/// The squared distance of the centres of the two discs that meet first, against time. It is
+/// (r₁ + r₂)² twice: when they touch, and when they would part if they passed through each other.
+/// @throws UsageError if no two discs meet.
+Drawable separation_panel(const DrawingContext& context, const PanelPlace& place);
 
 /// Whether red comes, at least three collisions happen, and red goes while the scene is shown.
 bool shows_a_turn(const DrawingContext& context);

@@ -54,14 +54,14 @@ class PositionPanel {
  public:
   PositionPanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of_positions(context)),
-        path_(context.log(), span_of(context.scene, context.log()),
+        path_(context.two_blocks(), span_of(context.scene, context.log),
               std::max(1, static_cast<int>(diagram_.inside().width))),
         most_(path_.greatest_y2() > 0 ? path_.greatest_y2() : 1),
         least_share_(path_.least_y2() > 0 ? path_.least_y2() / most_ : kLeastShare),
         zoom_(least_share_) {
     context.needs.gaps = true;
     zoom_.make_texts(context.setter());
-    const GapWedge wedge(context.scene.system);
+    const GapWedge wedge(context.two_blocks().blocks());
     is_true_ = std::min(wedge.theta, std::numbers::pi / 2 - wedge.theta) >= kLeastAngle;
     place_wedge(is_true_ ? wedge.sine / wedge.cosine : 0);
     add_wedge();

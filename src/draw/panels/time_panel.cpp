@@ -142,10 +142,10 @@ class TimePanel {
  public:
   TimePanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of_time(context)),
-        wedge_(context.scene.system),
+        wedge_(context.two_blocks().blocks()),
         axis_(context, diagram_, 0) {
     const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));
-    const auto pieces = trajectory_of(context.log(), wedge_, axis_.span(), columns);
+    const auto pieces = trajectory_of(context.two_blocks(), wedge_, axis_.span(), columns);
     top_ = greatest_y2(pieces);
     const Palette& palette = diagram_.palette();
     const auto to_place = [this](double time, double gap) { return at(time, gap); };
@@ -172,7 +172,7 @@ class TimePanel {
     items.emplace_back(diagram_.item());
     const double time = to_double(shown.time);
     if (!axis_.shows(time)) return;
-    const Gaps gaps = wedge_.gaps_of(shown.state);
+    const Gaps gaps = wedge_.gaps_of(blocks_state(shown.state));
     const Point red = at(time, gaps.y2);
     items.emplace_back(axis_.cursor(diagram_, 0, red));
     items.emplace_back(diagram_.dot(1, red, diagram_.palette().red.line));
@@ -237,6 +237,7 @@ class TimePanel {
 }  // namespace
 
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
+  if (context.pair() == nullptr) return positions_panel(context, place);
   return TimePanel(context, place);
 }
 

@@ -20,8 +20,9 @@ bool divides_pi(const Rational& ratio) {
 
 /// Collisions from the beginning of the scene on.
 Integer crossings_of(const DrawingContext& context) {
-  const Integer before = context.log().blocks_at(span_of(context.scene, context.log()).from).count;
-  return context.log().last() - (before < 0 ? before : Integer(0));
+  const Integer before =
+      context.two_blocks().blocks_at(span_of(context.scene, context.log).from).count;
+  return context.log.last() - (before < 0 ? before : Integer(0));
 }
 
 /// The wedge angle in radians: as a unit fraction where that is good to three digits.
@@ -48,7 +49,7 @@ std::string angle_text(const BlockSystem& system) {
 
 std::vector<Formula> unfolded_titles(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
-  const BlockSystem& system = context.scene.system;
+  const BlockSystem& system = context.two_blocks().blocks();
   const Integer count = crossings_of(context);
   const std::string number = count == 0 ? "no" : count_text(count, context.scene.show.base);
   const std::string brief_number = count < 1000000 ? number : short_text(Rational(count));
@@ -87,7 +88,7 @@ Formula angle_note(const DrawingContext& context) {
   const Palette& palette = context.palette;
   return set.italic("θ") + set.text(" = arctan ") +
          set.root(mass("1", palette.blue.label) + set.text("/") + mass("2", palette.red.label)) +
-         set.text(" ≈ " + angle_text(context.scene.system));
+         set.text(" ≈ " + angle_text(context.two_blocks().blocks()));
 }
 
 std::optional<Formula> thinning_note(const FormulaSetter& set, const std::vector<Mirror>& mirrors) {

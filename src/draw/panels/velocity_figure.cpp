@@ -54,7 +54,7 @@ VelocityFigure::VelocityFigure(const DrawingContext& context, const Diagram& dia
     : points_(std::move(points)),
       palette_(context.palette),
       grid_px_(context.sizes.grid_line),
-      log_axes_(log_axes_of(context.scene.system)),
+      log_axes_(log_axes_of(context.two_blocks().blocks())),
       place_(place_velocities(diagram, context.setter())) {
   const double apart_px = 2 * points_.wedge_angle() * place_.circle.radius;
   has_chords_ = points_.moves() && apart_px >= kChordsApart * context.sizes.data_line;

@@ -318,7 +318,7 @@ bool is_ellipse_to_scale(const BlockSystem& system) {
 
 VelocityLabels label_velocities(const DrawingContext& context, const VelocityPlace& place,
                                 const VelocityPoints& points, const std::vector<double>& angles) {
-  return VelocityLabeller(context, place, points).run(context.scene.system, angles);
+  return VelocityLabeller(context, place, points).run(context.two_blocks().blocks(), angles);
 }
 
 }  // namespace piblocks

@@ -53,7 +53,7 @@ class VelocityPanel {
   VelocityPanel(const DrawingContext& context, const PanelPlace& place,
                 const std::vector<Formula>& titles, bool is_ellipse_first)
       : diagram_(context, place, titles),
-        points_(context.scene, context.log()),
+        points_(context.scene, context.two_blocks()),
         figure_(context, diagram_, points_),
         is_ellipse_first_(is_ellipse_first) {
     if (is_ellipse_first) context.needs.video_s = true;
@@ -68,11 +68,11 @@ class VelocityPanel {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const double share = is_ellipse_first_ ? morphed_share(shown.video_s) : 1;
     if (share == 1) {
-      add(circle_, 1, shown.state, items);
+      add(circle_, 1, blocks_state(shown.state), items);
     } else if (share == 0) {
-      add(ellipse_, 0, shown.state, items);
+      add(ellipse_, 0, blocks_state(shown.state), items);
     } else {
-      add(figure_items(share), share, shown.state, items);
+      add(figure_items(share), share, blocks_state(shown.state), items);
     }
   }
 

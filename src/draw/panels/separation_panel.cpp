@@ -5,8 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/bodies/body_look.hpp"
-#include "draw/bodies/body_panels.hpp"
+#include "draw/panels/panels.hpp"
 
 namespace piblocks {
 namespace {
@@ -62,10 +61,10 @@ Meeting first_meeting(const Log& log, const Span& span) {
 class SeparationPanel {
  public:
   SeparationPanel(const DrawingContext& context, const PanelPlace& place)
-      : meeting_(first_meeting(*context.bodies, span_of(context.scene, *context.bodies))),
+      : meeting_(first_meeting(context.log, span_of(context.scene, context.log))),
         diagram_(context, place, titles(context)),
         axis_(context, diagram_, 0) {
-    const BodySystem& system = context.bodies->system();
+    const BodySystem& system = context.bodies.system;
     const double reach =
         to_double(system.bodies[meeting_.first].size + system.bodies[meeting_.second].size);
     contact_ = reach * reach;
@@ -73,7 +72,7 @@ class SeparationPanel {
     top_ = std::clamp(1.15 * begin, 2.5 * contact_, 5 * contact_);
     add_level();
     add_parabola();
-    add_path(*context.bodies);
+    add_path(context.log);
     add_touches(context.font);
     axis_.add_base(diagram_);
     diagram_.finish();
@@ -83,7 +82,7 @@ class SeparationPanel {
     items.emplace_back(diagram_.item());
     const double time = to_double(shown.time);
     if (!axis_.shows(time)) return;
-    const double square = square_of(shown.bodies);
+    const double square = square_of(shown.state.bodies);
     const Point at = place_of(time, std::min(square, top_));
     items.emplace_back(axis_.cursor(diagram_, 0, at));
     if (square <= top_) items.emplace_back(diagram_.present_dot(1, at));

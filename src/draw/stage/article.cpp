@@ -11,7 +11,7 @@
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/counter.hpp"
-#include "draw/overlays/overlays.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {
@@ -44,32 +44,40 @@ class ArticleStage {
   ArticleStage(const DrawingContext& context, std::string lit_digits, Drawable behind)
       : layout_(context.layout),
         palette_(context.palette),
-        wall_(wall_of(context.scene)),
+        colors_(context.colors),
+        walls_(walls_of(context)),
         behind_(std::move(behind)),
         lit_digits_(std::move(lit_digits)),
         base_(context.scene.show.base),
-        endless_(is_endless(context.log()) ? std::optional(context.log().last()) : std::nullopt),
+        endless_(is_endless(context.log) ? std::optional(context.log.last()) : std::nullopt),
         widths_(context.font,
                 count_characters(base_) + (endless_ ? std::string(kEndlessCount) : "")) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(wall_);
+    items.insert(items.end(), walls_.begin(), walls_.end());
     if (behind_) behind_(shown, items);
-    add_blocks(shown, layout_, palette_, items);
+    add_blocks(shown, layout_, colors_, items);
     add_line(shown.state.count, items);
   }
 
  private:
   /// The article's wall is a body of width 1 whose face is where blue turns back.
-  RectangleItem wall_of(const Scene& scene) const {
-    const double face = to_double(scene.system.wall_face);
-    const double bottom = to_double(scene.view.y.low);
-    const double height = length(scene.view.y);
-    const Point corner = layout_.at(face - 1, bottom + height);
-    return {ItemId::wall,
-            {corner.x, corner.y, layout_.scale, height * layout_.scale},
-            std::nullopt,
-            Stroke{palette_.wall, layout_.line_px, kDash * layout_.line_px}};
+  std::vector<DrawItem> walls_of(const DrawingContext& context) const {
+    const Range& y = context.scene.view.y;
+    const double height = length(y);
+    const LineWalls walls = line_walls(context.bodies.system);
+    std::vector<DrawItem> items;
+    const auto add = [&](double left) {
+      const Point corner = layout_.at(left, to_double(y.low) + height);
+      items.emplace_back(
+          RectangleItem{nth(ItemId::wall, items.size()),
+                        {corner.x, corner.y, layout_.scale, height * layout_.scale},
+                        std::nullopt,
+                        Stroke{palette_.wall, layout_.line_px, kDash * layout_.line_px}});
+    };
+    if (walls.left) add(to_double(*walls.left) - 1);
+    if (walls.right) add(to_double(*walls.right));
+    return items;
   }
 
   /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
@@ -102,7 +110,8 @@ class ArticleStage {
 
   Layout layout_;
   Palette palette_;
-  RectangleItem wall_;
+  std::vector<BlockColors> colors_;
+  std::vector<DrawItem> walls_;
   Drawable behind_;
   std::string lit_digits_;
   int base_;                        ///< of counts
@@ -117,9 +126,9 @@ struct ExtraRoom {
 };
 
 /// Label and view form one group, centred in the area.
-Layout article_layout(const Scene& scene, const CountLine& count_line, const Rectangle& area,
-                      const ExtraRoom& extra) {
-  const View& view = scene.view;
+Layout article_layout(const DrawingContext& context, const CountLine& count_line,
+                      const Rectangle& area, const ExtraRoom& extra) {
+  const View& view = context.scene.view;
   const double margin = article_style::kMargin * article_style::short_measure(area);
   Layout layout;
   layout.count_line = count_line;
@@ -145,14 +154,14 @@ Layout article_layout(const Scene& scene, const CountLine& count_line, const Rec
       to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
   line.label.y = to_pixel(top + Font::kCapHeight_em * line.text_px);
 
-  // The larger block's middle is at 0, and its sides are equal.
-  const auto shape_of = [&](const Block& block) -> BlockShape {
-    const double side = to_double(block.width);
-    return {side, side * layout.scale};
-  };
-  layout.blue = shape_of(scene.system.blue);
-  layout.red = shape_of(scene.system.red);
-  const double half = std::max(layout.blue.width, layout.red.width) / 2;
+  // The largest block's middle is at 0, and its sides are equal.
+  double largest = 0;
+  for (const Body& body : context.bodies.system.bodies) {
+    const double side = to_double(body.size);
+    layout.shapes.push_back({side, side * layout.scale});
+    largest = std::max(largest, side);
+  }
+  const double half = largest / 2;
   layout.floor_px = layout.at(0, -half).y;
   layout.wall_bottom_px = layout.at(0, to_double(view.y.low)).y;
   layout.above_px = (to_double(view.y.high) - half) * layout.scale + gap - line.text_px / 2;
@@ -162,12 +171,14 @@ Layout article_layout(const Scene& scene, const CountLine& count_line, const Rec
 
 }  // namespace
 
-Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
-                       const Font& font) {
+Layout lay_out_article(const DrawingContext& context, const Integer& longest_count,
+                       const Rectangle& area) {
+  const Font& font = context.font;
   const double margin = article_style::kMargin * article_style::short_measure(area);
   CountLine line;
   line.label_em = font.width_em(kLabelText) + kWordSpace;
-  const double line_em = line.label_em + count_width_em(longest_count, scene.show.base, font);
+  const double line_em =
+      line.label_em + count_width_em(longest_count, context.scene.show.base, font);
   line.count_em = line_em - line.label_em;
   line.left_px = area.x + margin;
   line.room_px = area.width - 2 * margin;
@@ -178,14 +189,14 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
   // mass may no longer fit on its block.
   constexpr int kPasses = 4;
   ExtraRoom extra;
-  Layout layout = article_layout(scene, line, area, extra);
+  Layout layout = article_layout(context, line, area, extra);
   for (int pass = 0; pass < kPasses; ++pass) {
-    const double above = room_above_px(scene, layout, font) - layout.above_px;
-    const double below = room_below_px(scene) - layout.below_px;
+    const double above = room_above_px(context, layout) - layout.above_px;
+    const double below = room_below_px(context.scene) - layout.below_px;
     extra.above += std::max(0.0, above);
     extra.below += std::max(0.0, below);
     if (std::max(above, below) <= 0 || extra.above + extra.below > kMostOfArea * area.height) break;
-    layout = article_layout(scene, line, area, extra);
+    layout = article_layout(context, line, area, extra);
   }
   return layout;
 }

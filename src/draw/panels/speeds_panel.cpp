@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/rounded.hpp"
-#include "draw/bodies/body_panels.hpp"
 #include "draw/number_text.hpp"
+#include "draw/panels/panels.hpp"
 
 namespace piblocks {
 namespace {
@@ -86,7 +86,7 @@ std::size_t movable(const BodySystem& system) {
 class SpeedsPanel {
  public:
   SpeedsPanel(const DrawingContext& context, const PanelPlace& place)
-      : system_(context.bodies->system()),
+      : system_(context.bodies.system),
         diagram_(context, place, titles(context)),
         maxwell_(system_, energy_of(system_)),
         plot_(diagram_.inside()),
@@ -100,9 +100,9 @@ class SpeedsPanel {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     std::vector<int> counts(std::size_t(bins_), 0);
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
       if (!system_.bodies[i].mass) continue;
-      const auto& [x, y] = shown.bodies[i].velocity;
+      const auto& [x, y] = shown.state.bodies[i].velocity;
       const auto bin = static_cast<std::size_t>(std::sqrt(x * x + y * y) / fastest_ * bins_);
       if (bin < counts.size()) ++counts[bin];
     }
@@ -125,7 +125,7 @@ class SpeedsPanel {
 
  private:
   static std::vector<Formula> titles(const DrawingContext& context) {
-    const BodySystem& system = context.bodies->system();
+    const BodySystem& system = context.bodies.system;
     if (movable(system) < kLeastBodies || energy_of(system) <= 0) {
       throw UsageError(fmt::format(
           "show.panels: 'speeds' needs at least {} bodies of finite mass, and one that moves",

@@ -1,4 +1,4 @@
-#include "draw/bodies/moving_bodies.hpp"
+#include "draw/stage/moving_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace piblocks {
 namespace {
 
-using Exposures = std::span<const WeightedBodyExposure>;
+using Exposures = std::span<const WeightedExposure>;
+using Still = std::variant<ExposedBlock, DiscItem>;
 
 /// Above the ids of bodies.
 constexpr std::size_t kExposed = 65535;
@@ -38,7 +39,7 @@ void each_piece(Exposures exposures, std::size_t body, const Visit& visit) {
 }
 
 /// How far a body moves, in pixels.
-double way_of(Exposures exposures, std::size_t body, const BodyMap& map) {
+double way_of(Exposures exposures, std::size_t body, const Layout& map) {
   double way = 0;
   each_piece(exposures, body, [&](double, double, const BodyPiece& piece) {
     const double x = piece.to[0] - piece.from[0];
@@ -49,7 +50,7 @@ double way_of(Exposures exposures, std::size_t body, const BodyMap& map) {
 }
 
 /// Of the edges of a body, where each pixel is computed by itself.
-double edges_px(const StillBody& body, const PixelRect& frame) {
+double edges_px(const Still& body, const PixelRect& frame) {
   constexpr double kFade_px = 3;  // on both sides of the line
   const double most = 2.0 * (frame.width_px + frame.height_px);
   if (const auto* disc = std::get_if<DiscItem>(&body)) {
@@ -72,10 +73,10 @@ struct Moments {
 };
 
 /// When bodies change their velocity, and both ends of the exposure.
-std::vector<double> turns_of(Exposures exposures, const std::vector<std::size_t>& movers) {
+std::vector<double> turns_of(Exposures exposures, const std::vector<const PlacedBody*>& movers) {
   std::vector<double> turns{0, 1};
-  for (const std::size_t body : movers) {
-    each_piece(exposures, body, [&](double begin, double, const BodyPiece&) {
+  for (const PlacedBody* const mover : movers) {
+    each_piece(exposures, mover->body, [&](double begin, double, const BodyPiece&) {
       if (begin > 0 && begin < 1) turns.push_back(begin);
     });
   }
@@ -108,7 +109,7 @@ Moments moments_for(std::size_t count, const std::vector<double>& turns, std::si
 }
 
 /// Of a body's corner, at each moment.
-std::vector<Point> places_of(Exposures exposures, std::size_t body, const BodyMap& map,
+std::vector<Point> places_of(Exposures exposures, std::size_t body, const Layout& map,
                              const Point& corner, const std::vector<double>& moments) {
   std::vector<Point> places;
   places.reserve(moments.size());
@@ -127,7 +128,7 @@ std::vector<Point> places_of(Exposures exposures, std::size_t body, const BodyMa
   return places;
 }
 
-void add_still(ItemId id, const StillBody& body, std::vector<DrawItem>& items) {
+void add_still(ItemId id, const Still& body, std::vector<DrawItem>& items) {
   if (const auto* disc = std::get_if<DiscItem>(&body)) {
     items.emplace_back(*disc);
     std::get<DiscItem>(items.back()).id = id;
@@ -137,7 +138,7 @@ void add_still(ItemId id, const StillBody& body, std::vector<DrawItem>& items) {
 }
 
 /// From the upper left corner of a block to its centre below; a disc is at its centre.
-Point corner_of(const StillBody& body) {
+Point corner_of(const Still& body) {
   if (std::holds_alternative<DiscItem>(body)) return {};
   const Rectangle& bounds = std::get<ExposedBlock>(body).bounds;
   return {bounds.width / 2, bounds.height};
@@ -159,18 +160,17 @@ void mirror(ExposedBlocksItem& item, double frame_px) {
   std::ranges::reverse(item.contacts);
 }
 
-ExposedBlocksItem closed_blocks_item(const std::vector<StillBody>& bodies, const BodyMap& map,
-                                     double frame_px, Exposures exposures) {
-  std::vector<WeightedExposure> blocks;
-  for (const auto& [share, exposure] : exposures) {
-    blocks.push_back({share, exposure.closed->blocks});
-  }
+ExposedBlocksItem closed_blocks_item(std::span<const PlacedBody> bodies, const Layout& map,
+                                     Exposures exposures) {
+  const double frame_px = map.visible_right_px;
+  const auto block_of = [&](std::size_t body) {
+    return std::get<ExposedBlock>(std::ranges::find(bodies, body, &PlacedBody::body)->still);
+  };
   const ClosedExposure& closed = *exposures.front().exposure.closed;
   const bool is_mirrored = closed.sign < 0;
   const AxisPlace axis{is_mirrored ? frame_px - map.origin.x : map.origin.x, map.scale, frame_px};
   ExposedBlocksItem item =
-      exposed_blocks(std::get<ExposedBlock>(bodies[closed.red]),
-                     std::get<ExposedBlock>(bodies[closed.blue]), axis, blocks);
+      exposed_blocks(block_of(closed.red), block_of(closed.blue), axis, exposures);
   if (is_mirrored) mirror(item, frame_px);
   item.id = nth(ItemId::red_block, kExposed);
   return item;
@@ -178,37 +178,37 @@ ExposedBlocksItem closed_blocks_item(const std::vector<StillBody>& bodies, const
 
 }  // namespace
 
-void add_exposed(const std::vector<StillBody>& bodies, const BodyMap& map, const PixelRect& frame,
+void add_exposed(std::span<const PlacedBody> bodies, const Layout& map, const PixelRect& frame,
                  Exposures exposures, std::vector<DrawItem>& items) {
   const bool is_closed = !exposures.empty() && exposures.front().exposure.closed;
-  std::vector<std::size_t> movers;
+  std::vector<const PlacedBody*> movers;
   double longest_px = 0;
   double edges = 0;
   std::size_t most_pieces = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (is_closed && exposures.front().exposure.closed->has(i)) continue;
-    const double way_px = is_closed ? 0 : way_of(exposures, i, map);
+  for (const PlacedBody& placed : bodies) {
+    if (is_closed && exposures.front().exposure.closed->has(placed.body)) continue;
+    const double way_px = is_closed ? 0 : way_of(exposures, placed.body, map);
     if (!(way_px > kStill_px)) {
-      add_still(nth(ItemId::red_block, i), bodies[i], items);
+      add_still(placed.id, placed.still, items);
       continue;
     }
-    movers.push_back(i);
+    movers.push_back(&placed);
     longest_px = std::max(longest_px, way_px);
-    edges += edges_px(bodies[i], frame);
+    edges += edges_px(placed.still, frame);
     std::size_t pieces = 0;
-    for (const auto& weighted : exposures) pieces += weighted.exposure.pieces[i].size();
+    for (const auto& [share, exposure] : exposures) pieces += exposure.pieces[placed.body].size();
     most_pieces = std::max(most_pieces, pieces);
   }
-  if (is_closed) items.emplace_back(closed_blocks_item(bodies, map, frame.width_px, exposures));
+  if (is_closed) items.emplace_back(closed_blocks_item(bodies, map, exposures));
   if (movers.empty()) return;
   const double most = std::min(kMostEdges_px / edges, kMostPlaces / double(movers.size()));
   const double count = std::min({kLeastMoments + longest_px, kMostMoments, most});
   Moments moments = moments_for(static_cast<std::size_t>(std::max(count, kFewMoments)),
                                 turns_of(exposures, movers), most_pieces);
   MovingShapesItem moving{nth(ItemId::red_block, kExposed), std::move(moments.shares), {}};
-  for (const std::size_t i : movers) {
-    moving.shapes.push_back(
-        {bodies[i], places_of(exposures, i, map, corner_of(bodies[i]), moments.times)});
+  for (const PlacedBody* const placed : movers) {
+    moving.shapes.push_back({placed->still, places_of(exposures, placed->body, map,
+                                                      corner_of(placed->still), moments.times)});
   }
   items.emplace_back(std::move(moving));
 }

@@ -4,22 +4,26 @@
 
 #include <piblocks/image.hpp>
 
+#include <cstddef>
 #include <span>
 #include <variant>
 #include <vector>
 
-#include "draw/bodies/body_shapes.hpp"
-#include "draw/composition.hpp"
+#include "draw/layout.hpp"
 
 namespace piblocks {
 
 /// A body at the picture's instant. @see MovingShape
-using StillBody = std::variant<ExposedBlock, DiscItem>;
+struct PlacedBody {
+  ItemId id;
+  std::size_t body = 0;  ///< its number
+  std::variant<ExposedBlock, DiscItem> still;
+};
 
 /// Adds the bodies that stay, and an item of all that move.
-/// @param bodies     in the order of the exposures'
+/// @param bodies     in the order in which they are painted
 /// @param exposures  none if the picture is that of its instant
-void add_exposed(const std::vector<StillBody>& bodies, const BodyMap& map, const PixelRect& frame,
-                 std::span<const WeightedBodyExposure> exposures, std::vector<DrawItem>& items);
+void add_exposed(std::span<const PlacedBody> bodies, const Layout& map, const PixelRect& frame,
+                 std::span<const WeightedExposure> exposures, std::vector<DrawItem>& items);
 
 }  // namespace piblocks

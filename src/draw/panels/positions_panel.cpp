@@ -3,14 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/bodies/body_look.hpp"
-#include "draw/bodies/body_panels.hpp"
+#include "draw/panels/panels.hpp"
 
 namespace piblocks {
 namespace {
 
 /// A path of more corners than this for each column of pixels is sampled once a column.
-constexpr std::size_t kMostCorners = 4;
+constexpr std::size_t kCornersPerColumn = 4;
 
 /// A place of a body's centre.
 struct Corner {
@@ -25,12 +24,11 @@ class PositionsPanel {
         axis_(context, diagram_, 0),
         low_(to_double(context.scene.view.x.low)),
         high_(to_double(context.scene.view.x.high)) {
-    const BodySystem& system = context.bodies->system();
-    const std::vector<std::vector<Corner>> paths = paths_of(*context.bodies);
+    const BodySystem& system = context.bodies.system;
+    const std::vector<std::vector<Corner>> paths = paths_of(context.log);
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      const Color color = body_colors(context.scene, context.palette, i).fill;
       half_widths_.push_back(to_double(system.bodies[i].size) / 2);
-      add_band(paths[i], half_widths_.back(), color);
+      add_band(paths[i], half_widths_.back(), context.colors[i]);
     }
     for (const Wall& wall : system.walls) {
       const double y = y_of(to_double(wall.point[0]));
@@ -46,8 +44,8 @@ class PositionsPanel {
     const double time = to_double(shown.time);
     if (!axis_.shows(time)) return;
     items.emplace_back(axis_.cursor(diagram_, 0, {axis_.x_of(time), axis_.plot().y}));
-    for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
-      const double position = shown.bodies[i].position[0];
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
+      const double position = shown.state.bodies[i].position[0];
       if (position < low_ || position > high_) continue;
       items.emplace_back(
           diagram_.dot(1 + i, {axis_.x_of(time), y_of(position)}, diagram_.palette().text));
@@ -81,13 +79,13 @@ class PositionsPanel {
       }
     };
     add(span.from, first);
-    if (collisions > Integer(kMostCorners * columns * bodies)) {
+    if (collisions > Integer(kCornersPerColumn * columns * bodies)) {
       for (std::size_t column = 1; column < columns; ++column) {
         const Rational time = span.from + (span.to - span.from) * Rational(column, columns);
         add(time, log.state_at(time));
       }
     } else {
-      for (Integer k = first.count + 1; k <= last.count; ++k) {
+      for (Integer k = first.count + 1; k <= last.count && k <= log.last(); ++k) {
         const BodyCollision c = log.collision(k);
         for (const auto& [id, motion] :
              {std::pair(c.first, c.first_after), std::pair(c.second, c.second_after)}) {
@@ -99,11 +97,11 @@ class PositionsPanel {
     return paths;
   }
 
-  void add_band(const std::vector<Corner>& path, double half_width, const Color& color) {
+  void add_band(const std::vector<Corner>& path, double half_width, const BlockColors& colors) {
     std::vector<Point> outline = edge(path, half_width);
     const std::vector<Point> lower = edge(path, -half_width);
     outline.insert(outline.end(), lower.rbegin(), lower.rend());
-    diagram_.shape(std::move(outline), color);
+    diagram_.shape(std::move(outline), colors.fill, colors.edge);
   }
 
   /// An edge of a band, with a corner wherever it leaves the diagram.

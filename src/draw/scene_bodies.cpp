@@ -1,0 +1,26 @@
+#include "draw/scene_bodies.hpp"
+
+#include <utility>
+
+namespace piblocks {
+
+Bodies bodies_of(const Scene& scene) {
+  if (scene.bodies) return *scene.bodies;
+  return {two_blocks_of(scene.system).system, {{}, {}}};
+}
+
+BodiesState bodies_state(BlockState state) {
+  const auto motion = [](const Motion& block) {
+    return BodyMotion{{block.position, 0}, {block.velocity, 0}};
+  };
+  return {std::move(state.count), {motion(state.blue), motion(state.red)}};
+}
+
+BlockState blocks_state(const BodiesState& state) {
+  const auto motion = [](const BodyMotion& body) {
+    return Motion{body.position[0], body.velocity[0]};
+  };
+  return {state.count, motion(state.bodies[0]), motion(state.bodies[1])};
+}
+
+}  // namespace piblocks

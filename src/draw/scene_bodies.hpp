@@ -1,0 +1,19 @@
+// The bodies of a scene, also where it has two blocks and a wall.
+// In: a scene; states. Out: bodies; states of bodies.
+#pragma once
+
+#include <piblocks/run.hpp>
+#include <piblocks/scene.hpp>
+
+#include "physics/exposure.hpp"
+
+namespace piblocks {
+
+/// What the scene shows. Blue and red are bodies 0 and 1, beside wall 0.
+Bodies bodies_of(const Scene& scene);
+
+BodiesState bodies_state(BlockState state);
+/// Back again. @param state  of two bodies
+BlockState blocks_state(const BodiesState& state);
+
+}  // namespace piblocks

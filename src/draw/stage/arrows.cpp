@@ -1,0 +1,321 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/rounded.hpp"
+#include "draw/number_text.hpp"
+#include "draw/stage/stage.hpp"
+
+namespace piblocks {
+namespace {
+
+// Heights above the tallest block, or the label above it, in fractions of the frame's shorter side.
+constexpr double kShaft = 0.022;
+constexpr double kVelocityBaseline = 0.052;
+constexpr double kAboveFigures = 0.003;
+constexpr double kHead = 0.014;
+/// Arrows are shorter than this part of the distance between the centres of touching blocks.
+/// Centred above its block, an arrow never meets another one.
+constexpr double kLongest = 0.9;
+constexpr double kBetweenFigures_em = 0.5;
+constexpr const char* kUsualFigure = "−88.88";
+/// An arrow of so many times the usual speed has half the greatest length.
+constexpr double kHalfLength = 2;
+/// More blocks have no figures if there is no room for all.
+constexpr std::size_t kAlwaysFigures = 2;
+/// Length of a disc's arrow at the usual speed, in fractions of the frame's shorter side.
+constexpr double kDiscArrow = 0.08;
+/// Of a body: a shaft, a head and a figure.
+constexpr std::size_t kIds = 4;
+
+double arrow_room_px(const Sizes& sizes) {
+  return std::max(
+      kArrowRoom * sizes.short_side,
+      (kVelocityBaseline + kAboveFigures) * sizes.short_side + Font::kCapHeight_em * sizes.text);
+}
+
+/// A shaft and a head, of different lines where there are blocks and where there are discs.
+struct Arrow {
+  ItemId id;
+  Point tail;
+  Point tip;
+  Color color;
+  double line_px = 1;
+  double head_px = 1;       ///< length of the head
+  double half_head_px = 1;  ///< and half its width
+};
+
+/// Nothing where the arrow would be no longer than its head.
+void add_arrow(const Arrow& arrow, std::vector<DrawItem>& items) {
+  const auto& [id, tail, tip, color, line_px, head, half_head] = arrow;
+  const double length = rounded::hypot(tip.x - tail.x, tip.y - tail.y);
+  if (length <= head) return;
+  const Point along{(tip.x - tail.x) / length, (tip.y - tail.y) / length};
+  const Point neck{tip.x - head * along.x, tip.y - head * along.y};
+  const double half = along.x < 0 ? -half_head : half_head;
+  items.emplace_back(
+      PathItem{id, std::vector<Point>{tail, neck}, false, std::nullopt, Stroke{color, line_px}});
+  items.emplace_back(
+      PathItem{nth(id, 1),
+               std::vector<Point>{tip,
+                                  {neck.x + half * along.y, neck.y - half * along.x},
+                                  {neck.x - half * along.y, neck.y + half * along.x}},
+               true, color, std::nullopt});
+}
+
+struct Figure {
+  std::size_t body;
+  TextItem item;
+  double width;
+
+  double& left() { return item.origin.x; }
+};
+
+/// Where figures may be, and how far they stay apart.
+struct FigureRoom {
+  double left = 0;
+  double right = 0;
+  double gap = 0;
+
+  double size() const { return right - left; }
+
+  /// Moves figures, in the order from left to right, as little as keeps them apart and in the room:
+  /// two that overlap give way by half of that. (Means of blocks that pool, as in isotonic
+  /// regression.)
+  void keep_apart(std::vector<Figure>& figures) const {
+    struct Group {
+      double sum;  ///< of where its figures would be if those left of them had no width
+      double count;
+      double mean() const { return sum / count; }
+    };
+    std::vector<Group> groups;
+    double before = 0;
+    for (Figure& figure : figures) {
+      figure.left() = std::max(figure.left(), left);
+      groups.push_back({figure.left() - before, 1});
+      while (groups.size() > 1 && groups[groups.size() - 2].mean() > groups.back().mean()) {
+        groups[groups.size() - 2].sum += groups.back().sum;
+        groups[groups.size() - 2].count += groups.back().count;
+        groups.pop_back();
+      }
+      before += figure.width + gap;
+    }
+    const double last = std::max(left, right - (before - gap));
+    before = 0;
+    auto next = figures.begin();
+    for (const Group& group : groups) {
+      const double place = std::clamp(group.mean(), left, last);
+      for (double n = 0; n < group.count; ++n, ++next) {
+        const bool moves = group.count > 1 || place != group.mean();
+        if (moves) next->left() = place + before;
+        before += next->width + gap;
+      }
+    }
+  }
+};
+
+class BlockArrows {
+ public:
+  explicit BlockArrows(const DrawingContext& context)
+      : layout_(context.layout),
+        colors_(context.colors),
+        text_color_(context.palette.text),
+        font_face_(context.font.face()),
+        widths_(context.font, kNumberCharacters),
+        line_px_(context.sizes.data_line),
+        short_side_(context.sizes.short_side),
+        text_px_(context.sizes.text) {
+    const std::vector<Body>& bodies = context.bodies.system.bodies;
+    Rational most = 0;
+    for (std::size_t i = bodies.size(); i-- > 0;) {
+      if (!bodies[i].mass) continue;
+      moving_.push_back(i);
+      most = std::max(most, *bodies[i].mass);
+    }
+    // The heaviest block's speed when it has all the energy. It may be below the range of a double.
+    if (most > 0) usual_speed_ = root_of(twice_energy(context.bodies.system) / most);
+    place_foot(context);
+    place_figures(context);
+    find_longest(context);
+  }
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    std::vector<Figure> figures;
+    if (has_figures_) figures = figures_of(shown);
+    for (const std::size_t body : moving_) {
+      const auto figure = std::ranges::find(figures, body, &Figure::body);
+      if (has_figures_ && figure == figures.end()) continue;
+      const double middle = layout_.at(shown.state.bodies[body].position[0], 0).x;
+      const double half = length_px(shown.state.bodies[body].velocity[0]) / 2;
+      const double y = foot_px_ - kShaft * short_side_;
+      const double head = kHead * short_side_;
+      add_arrow({id_of(body),
+                 {middle - half, y},
+                 {middle + half, y},
+                 colors_[body].line,
+                 1.5 * line_px_,
+                 head,
+                 head},
+                items);
+      if (figure != figures.end()) items.emplace_back(std::move(figure->item));
+    }
+  }
+
+ private:
+  ItemId id_of(std::size_t body) const {
+    return nth(ItemId::velocities, kIds * (layout_.shapes.size() - 1 - body));
+  }
+
+  void place_foot(const DrawingContext& context) {
+    const bool is_over_label = !labelled_above(context, layout_).empty();
+    const double labels = is_over_label ? label_room_px(context.sizes) : 0;
+    foot_px_ = layout_.top_px() - labels;
+    const double room = arrow_room_px(context.sizes);
+    if (layout_.above_px + kRounded_px >= room + labels) return;
+    throw UsageError(
+        fmt::format("show.overlays: the velocities need {:.0f} pixels above the blocks, and there "
+                    "are {:.0f}; leave out 'velocities', or make the frame higher",
+                    room, std::max(0.0, layout_.above_px - labels)));
+  }
+
+  void place_figures(const DrawingContext& context) {
+    const LineWalls walls = line_walls(context.bodies.system);
+    const double margin = context.sizes.margin;
+    const double beside_wall = kBetweenFigures_em / 2 * text_px_;
+    room_ = {margin, std::min(context.scene.view.width_px - margin, layout_.content_right_px),
+             kBetweenFigures_em * text_px_};
+    const auto face = [&](const Rational& x) { return layout_.at(to_double(x), 0).x; };
+    if (walls.left) room_.left = std::max(room_.left, face(*walls.left) + beside_wall);
+    if (walls.right) room_.right = std::min(room_.right, face(*walls.right) - beside_wall);
+    const auto width = [&](std::size_t count) {
+      return (double(count) * widths_.width_em(kUsualFigure) +
+              double(count - 1) * kBetweenFigures_em) *
+             text_px_;
+    };
+    has_figures_ = !moving_.empty() && room_.size() >= width(moving_.size());
+    if (has_figures_ || moving_.size() > kAlwaysFigures || moving_.empty()) return;
+    throw UsageError(
+        fmt::format("show.overlays: the velocities need {:.0f} pixels beside the wall, and there "
+                    "are {:.0f}; leave out 'velocities', or make the frame wider",
+                    width(moving_.size()), std::max(0.0, room_.size())));
+  }
+
+  void find_longest(const DrawingContext& context) {
+    const std::vector<std::size_t> order = from_left_to_right(context.bodies.system);
+    double narrowest = layout_.shapes[order.front()].width * 2;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const double widths = layout_.shapes[order[i - 1]].width + layout_.shapes[order[i]].width;
+      narrowest = i == 1 ? widths : std::min(narrowest, widths);
+    }
+    longest_px_ = kLongest * narrowest / 2 * layout_.scale;
+  }
+
+  /// From left to right. A block that has left the frame has no figure: half a figure would be
+  /// another number.
+  std::vector<Figure> figures_of(const FrameState& shown) const {
+    std::vector<Figure> figures;
+    for (const std::size_t body : moving_) {
+      const double middle = layout_.at(shown.state.bodies[body].position[0], 0).x;
+      const double half = layout_.width_px(body) / 2;
+      if (middle + half <= 0 || middle - half >= layout_.visible_right_px) continue;
+      std::string text = rounded_text(shown.state.bodies[body].velocity[0]);
+      const double width = widths_.width_em(text) * text_px_;
+      const Point at{std::min(middle - width / 2, room_.right - width),
+                     foot_px_ - kVelocityBaseline * short_side_};
+      figures.push_back(
+          {body,
+           {nth(id_of(body), 2), at, std::move(text), text_px_, text_color_, font_face_},
+           width});
+    }
+    std::ranges::sort(figures, {}, [&](const Figure& figure) {
+      return shown.state.bodies[figure.body].position[0];
+    });
+    room_.keep_apart(figures);
+    return figures;
+  }
+
+  double length_px(double velocity) const {
+    const double speed = std::abs(velocity);
+    if (!(usual_speed_ > 0) || !(speed > 0)) return 0;
+    const double share = 1 / (1 + kHalfLength * mpf_class(usual_speed_ / speed).get_d());
+    return std::copysign(share * longest_px_, velocity);
+  }
+
+  Layout layout_;
+  std::vector<BlockColors> colors_;
+  Color text_color_;
+  Face font_face_;
+  TextWidths widths_;
+  mpf_class usual_speed_ = 0;
+  double line_px_;
+  double short_side_;
+  double text_px_;
+  std::vector<std::size_t> moving_;  ///< bodies that collisions move, from the last to the first
+  bool has_figures_ = true;
+  FigureRoom room_;
+  double foot_px_ = 0;  ///< arrows and figures are above it
+  double longest_px_ = 0;
+};
+
+class DiscArrows {
+ public:
+  explicit DiscArrows(const DrawingContext& context)
+      : layout_(context.layout),
+        color_(context.palette.text),
+        line_px_(context.sizes.data_line),
+        head_px_(kHead * context.sizes.short_side) {
+    double mass = 0;
+    for (const Body& body : context.bodies.system.bodies) {
+      if (body.mass) mass += to_double(*body.mass);
+    }
+    const double energy = to_double(twice_energy(context.bodies.system));
+    if (energy > 0)
+      px_per_speed_ = kDiscArrow * context.sizes.short_side / std::sqrt(energy / mass);
+  }
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    if (px_per_speed_ == 0) return;
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
+      const auto& [position, velocity] = shown.state.bodies[i];
+      const Point way{velocity[0] * px_per_speed_, -velocity[1] * px_per_speed_};
+      const double length = rounded::hypot(way.x, way.y);
+      if (length == 0) continue;
+      const Point centre = layout_.at(position);
+      const double from = layout_.width_px(i) / 2 / length;
+      add_arrow({nth(ItemId::velocities, kIds * i),
+                 {centre.x + from * way.x, centre.y + from * way.y},
+                 {centre.x + (from + 1) * way.x, centre.y + (from + 1) * way.y},
+                 color_,
+                 line_px_,
+                 head_px_,
+                 head_px_ / 2},
+                items);
+    }
+  }
+
+ private:
+  Layout layout_;
+  Color color_;
+  double line_px_;
+  double head_px_;
+  double px_per_speed_ = 0;
+};
+
+}  // namespace
+
+double room_above_px(const DrawingContext& context, const Layout& layout) {
+  const bool has_label = !labelled_above(context, layout).empty();
+  return (has_label ? label_room_px(context.sizes) : 0) +
+         (context.scene.show.has(Overlay::velocities) ? arrow_room_px(context.sizes) : 0);
+}
+
+Drawable velocity_arrows(const DrawingContext& context) {
+  if (context.is_plane()) return DiscArrows(context);
+  return BlockArrows(context);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,59 @@
+// Marks of hits: an arc for each, or a glow where they are too many to be told apart.
+// In: a FrameState, and where bodies touch. Out: items above the lower body's edge.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "draw/layout.hpp"
+
+namespace piblocks {
+
+/// Where two bodies of a line touch, and the free corner above the lower of them: marks open into
+/// it, where they cover no label of a block.
+struct Contact {
+  Point at;  ///< of the lower one's upper edge
+  bool is_left_free = false;
+  bool is_right_free = false;
+  Color color;
+};
+
+/// @param left_px, right_px  heights of what touches; infinite for a wall
+Contact contact_of(double x_px, double floor_px, double left_px, double right_px,
+                   const Color& color);
+
+class HitMarks {
+ public:
+  /// @param most_reach_px   how far marks may reach
+  /// @param most_glow_px    and glows, which must not meet above a narrow block
+  HitMarks(const DrawingContext& context, double most_reach_px, double most_glow_px);
+
+  /// An arc that grows and fades.
+  void add_arc(ItemId id, double age_s, const Contact& contact, std::vector<DrawItem>& items) const;
+  /// The same around a point of a plane.
+  void add_ring(ItemId id, double age_s, const Point& at, const Color& color,
+                std::vector<DrawItem>& items) const;
+  /// A steady light at contacts. Nothing if hits are few. @param contacts  none at another's place
+  void add_glow(double hits_per_s, std::span<const Contact> contacts,
+                std::vector<DrawItem>& items) const;
+
+ private:
+  /// By strength, from the weakest, around a contact at the origin.
+  using Glows = std::vector<std::shared_ptr<const Plate>>;
+  static std::tuple<bool, bool, std::uint32_t> kind_of(const Contact& contact);
+  Glows glows_of(const Contact& contact) const;
+  double radius_px(double age_s) const;
+
+  double reach_px_;  ///< of arcs
+  double glow_px_;   ///< and of glows
+  double line_px_;
+  std::map<std::tuple<bool, bool, std::uint32_t>, Glows> glows_;  ///< by kind_of()
+};
+
+/// The marks of the stage.
+Drawable hit_marks(const DrawingContext& context);
+
+}  // namespace piblocks

@@ -1,0 +1,308 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "draw/number_text.hpp"
+#include "draw/stage/stage.hpp"
+#include "draw/text_lines.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A label takes at most this part of its block's width.
+constexpr double kMostOfBlock = 0.9;
+/// Of the least block that a label is written on, in ems. A unit has a letter below the line.
+constexpr double kHeight_em = 1;
+constexpr double kHeightWithUnit_em = 1.2;
+/// The same of discs, in parts of the diameter and of the radius.
+constexpr double kMostOfDisc = 0.86;
+/// Between a block and the label above it, in fractions of the frame's shorter side.
+constexpr double kBelowLabel = 0.016;
+/// And between that label and what is above it.
+constexpr double kAboveLabel = 0.006;
+
+/// What a body's label says; empty if it has none.
+struct LabelText {
+  std::string text;
+  bool is_mass = false;
+};
+
+LabelText text_of(const DrawingContext& context, std::size_t body) {
+  const std::string& label = context.bodies.styles[body].label;
+  if (!label.empty()) return {label, false};
+  const auto& mass = context.bodies.system.bodies[body].mass;
+  if (!mass || !context.scene.show.has(Overlay::masses)) return {};
+  return {short_text(*mass), true};
+}
+
+/// What is written on the blocks of a line, and where that fits.
+class BlockTexts {
+ public:
+  BlockTexts(const DrawingContext& context, const Layout& layout)
+      : font_(context.font), layout_(layout), size_px_(context.sizes.mass) {
+    const std::vector<Body>& bodies = context.bodies.system.bodies;
+    for (std::size_t i = 0; i < bodies.size(); ++i) texts_.push_back(text_of(context, i));
+    find_peaks(context);
+    add_units();
+  }
+
+  const std::string& text(std::size_t body) const { return texts_[body].text; }
+  bool is_mass(std::size_t body) const { return texts_[body].is_mass; }
+  bool fits(std::size_t body) const { return fits(text(body), body); }
+  /// A block that is heavier than its neighbours may have its label above it, unless one of them
+  /// would run into it.
+  bool can_be_above(std::size_t body) const { return is_peak_[body]; }
+
+ private:
+  bool fits(const std::string& text, std::size_t body) const {
+    const bool has_unit = texts_[body].is_mass && text.ends_with('g');
+    return font_.width_em(text) * size_px_ <= kMostOfBlock * layout_.width_px(body) &&
+           (has_unit ? kHeightWithUnit_em : kHeight_em) * size_px_ <= layout_.height_px(body);
+  }
+
+  void find_peaks(const DrawingContext& context) {
+    const std::vector<Body>& bodies = context.bodies.system.bodies;
+    const std::vector<std::size_t> order = from_left_to_right(context.bodies.system);
+    is_peak_.assign(bodies.size(), true);
+    // What no collision moves is the heaviest; of equal ones it is the later one.
+    const auto is_heavier = [&](std::size_t a, std::size_t b) {
+      if (bodies[a].mass == bodies[b].mass) return a > b;
+      return !bodies[a].mass || (bodies[b].mass && *bodies[a].mass > *bodies[b].mass);
+    };
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const bool is_left_heavier = is_heavier(order[i - 1], order[i]);
+      const std::size_t heavy = is_left_heavier ? order[i - 1] : order[i];
+      const std::size_t light = is_left_heavier ? order[i] : order[i - 1];
+      is_peak_[light] = false;
+      if (layout_.height_px(heavy) < layout_.height_px(light)) is_peak_[heavy] = false;
+    }
+  }
+
+  /// All masses have a unit, unless only numbers have room.
+  void add_units() {
+    std::vector<LabelText> full = texts_;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+      if (!full[i].is_mass) continue;
+      full[i].text += " kg";
+      if (!fits(full[i].text, i) && !can_be_above(i)) return;
+    }
+    texts_ = std::move(full);
+  }
+
+  const Font& font_;
+  const Layout& layout_;
+  double size_px_;
+  std::vector<LabelText> texts_;
+  std::vector<bool> is_peak_;
+};
+
+/// A block's label, whose middle is in column 0.
+struct Label {
+  std::size_t body = 0;
+  TextItem text;
+  bool is_inside = true;  ///< on the block, else above it
+  Color beside;           ///< its colour when it is not on the block
+
+  double half_px() const { return -text.origin.x; }
+};
+
+/// Where labels can be while their blocks are in sight. No label is cut: half a number would be
+/// another number.
+class LabelRoom {
+ public:
+  explicit LabelRoom(const DrawingContext& context)
+      : layout_(context.layout),
+        left_(context.sizes.margin),
+        right_(std::min(context.scene.view.width_px - context.sizes.margin,
+                        context.layout.content_right_px)),
+        pad_(kBelowLabel * context.sizes.short_side) {}
+
+  void add(Label label, const FrameState& shown, std::vector<DrawItem>& items) const {
+    const Rectangle block = layout_.at(label.body, shown);
+    if (block.x + block.width <= 0 || block.x >= layout_.visible_right_px) return;
+    const double half = label.half_px();
+    double middle = block.x + block.width / 2;
+    const double pad = std::min(pad_, std::max(0.0, block.width / 2 - half - kRounded_px));
+    if (!label.is_inside) {
+      middle = std::clamp(middle, left_ + half, std::max(left_ + half, right_ - half));
+    } else {
+      const double least = std::max(left_, block.x + pad) + half;
+      const double most = std::min(right_, block.x + block.width - pad) - half;
+      middle = least <= most ? std::clamp(middle, least, most) : leave(label, block, shown);
+    }
+    // By whole pixels, its figures keep their distances, and encoders find it again.
+    double& x = label.text.origin.x;
+    x = std::min(std::max(std::round(x + middle), std::ceil(left_)), std::floor(right_ - 2 * half));
+    items.emplace_back(std::move(label.text));
+  }
+
+ private:
+  /// Moves the label of a block of which too little is seen beside the block, or above it if
+  /// another block is in the way. @returns the middle of the label
+  double leave(Label& label, const Rectangle& block, const FrameState& shown) const {
+    const double half = label.half_px();
+    label.text.color = label.beside;
+    const bool goes_right = block.x + block.width > right_;
+    const double middle = goes_right ? std::min(block.x - pad_, right_) - half
+                                     : std::max(block.x + block.width + pad_, left_) + half;
+    bool is_free = true;
+    for (std::size_t i = 0; i < layout_.shapes.size() && is_free; ++i) {
+      const Rectangle other = layout_.at(i, shown);
+      is_free = i == label.body || other.x + other.width <= middle - half - pad_ ||
+                other.x >= middle + half + pad_;
+    }
+    if (is_free) return middle;
+    label.text.origin.y = block.y - pad_;
+    return std::clamp(block.x + block.width / 2, left_ + half,
+                      std::max(left_ + half, right_ - half));
+  }
+
+  Layout layout_;
+  // Labels above or beside their blocks stay between these.
+  double left_;
+  double right_;
+  double pad_;
+};
+
+[[noreturn]] void throw_no_room(const DrawingContext& context, const BlockTexts& texts,
+                                std::size_t body) {
+  const Layout& layout = context.layout;
+  const std::string& text = texts.text(body);
+  const std::string place = fmt::format("its block of {:.0f}x{:.0f} pixels", layout.width_px(body),
+                                        layout.height_px(body));
+  if (texts.is_mass(body)) {
+    throw UsageError(fmt::format(
+        "show.overlays: the mass '{}' does not fit on {}; leave out 'masses', make the block or "
+        "the frame larger, or show less of the x axis",
+        text, place));
+  }
+  throw UsageError(
+      fmt::format("body {}.label: '{}' does not fit on {}; use a shorter one, make the block or "
+                  "the frame larger, or show less of the x axis",
+                  body + 1, text, place));
+}
+
+void check_room(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
+  if (texts.fits(body)) return;
+  if (!texts.can_be_above(body)) throw_no_room(context, texts, body);
+  const double needed = label_room_px(context.sizes);
+  if (context.layout.above_px + kRounded_px >= needed) return;
+  throw UsageError(fmt::format(
+      "show.overlays: the {} '{}' needs {:.0f} pixels above its block, and there are {:.0f}; leave "
+      "out {}, or make the block wider or the frame higher",
+      texts.is_mass(body) ? "mass" : "label", texts.text(body), needed,
+      std::max(0.0, context.layout.above_px), texts.is_mass(body) ? "'masses'" : "the label"));
+}
+
+Label label_of(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
+  if (!texts.is_mass(body)) check_readable(context, "body.label", texts.text(body));
+  check_room(context, texts, body);
+  const Layout& layout = context.layout;
+  const BlockColors& colors = context.colors[body];
+  const double size_px = context.sizes.mass;
+  const double height = layout.height_px(body);
+  const bool is_inside = texts.fits(body);
+  const double baseline = is_inside
+                              ? layout.floor_px - height / 2 + kHalfFigure_em * size_px
+                              : layout.floor_px - height - kBelowLabel * context.sizes.short_side;
+  return {body,
+          {nth(ItemId::masses, layout.shapes.size() - 1 - body),
+           {-context.font.width_em(texts.text(body)) * size_px / 2, baseline},
+           texts.text(body),
+           size_px,
+           is_inside ? colors.text : colors.label,
+           context.font.face()},
+          is_inside,
+          colors.label};
+}
+
+Drawable labels_of_line(const DrawingContext& context) {
+  const BlockTexts texts(context, context.layout);
+  std::vector<Label> labels;
+  for (std::size_t i = context.layout.shapes.size(); i-- > 0;) {
+    if (!texts.text(i).empty()) labels.push_back(label_of(context, texts, i));
+  }
+  return [labels = std::move(labels), room = LabelRoom(context)](const FrameState& shown,
+                                                                 std::vector<DrawItem>& items) {
+    for (const Label& label : labels) room.add(label, shown, items);
+  };
+}
+
+/// The label on a disc, its origin as seen from the centre; above it if it has no room there.
+Label label_of_disc(const DrawingContext& context, std::size_t body, const LabelText& label) {
+  const std::string& text = label.text;
+  if (!label.is_mass) check_readable(context, "body.label", text);
+  const double size_px = context.sizes.mass;
+  const double radius = context.layout.width_px(body) / 2;
+  const double width = context.font.width_em(text) * size_px;
+  const bool is_inside = width <= 2 * kMostOfDisc * radius && size_px <= kMostOfDisc * radius;
+  const double baseline =
+      is_inside ? kHalfFigure_em * size_px : -radius - kBelowLabel * context.sizes.short_side;
+  const BlockColors& colors = context.colors[body];
+  return {body,
+          {nth(ItemId::masses, body),
+           {-width / 2, baseline},
+           text,
+           size_px,
+           is_inside ? colors.text : colors.label,
+           context.font.face()},
+          is_inside,
+          colors.label};
+}
+
+Drawable labels_of_plane(const DrawingContext& context) {
+  std::vector<Label> labels;
+  for (std::size_t i = 0; i < context.layout.shapes.size(); ++i) {
+    const LabelText label = text_of(context, i);
+    if (!label.text.empty()) labels.push_back(label_of_disc(context, i, label));
+  }
+  return [labels = std::move(labels), layout = context.layout](const FrameState& shown,
+                                                               std::vector<DrawItem>& items) {
+    for (const Label& label : labels) {
+      const Point centre = layout.at(shown.state.bodies[label.body].position);
+      TextItem text = label.text;
+      text.origin = {std::round(centre.x + text.origin.x), std::round(centre.y + text.origin.y)};
+      items.emplace_back(std::move(text));
+    }
+  };
+}
+
+}  // namespace
+
+double label_room_px(const Sizes& sizes) {
+  return std::max(kMassRoom * sizes.short_side, (kBelowLabel + kAboveLabel) * sizes.short_side +
+                                                    Font::kCapHeight_em * sizes.mass);
+}
+
+bool has_labels(const DrawingContext& context) {
+  return context.scene.show.has(Overlay::masses) ||
+         std::ranges::any_of(context.bodies.styles,
+                             [](const BodyStyle& style) { return !style.label.empty(); });
+}
+
+std::vector<std::size_t> labelled_above(const DrawingContext& context, const Layout& layout) {
+  if (!has_labels(context) || context.is_plane()) return {};
+  const BlockTexts texts(context, layout);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < layout.shapes.size(); ++i) {
+    if (!texts.text(i).empty() && !texts.fits(i)) found.push_back(i);
+  }
+  return found;
+}
+
+std::vector<std::size_t> from_left_to_right(const BodySystem& line) {
+  std::vector<std::size_t> order(line.bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return line.bodies[i].position[0]; });
+  return order;
+}
+
+Drawable body_labels(const DrawingContext& context) {
+  return context.is_plane() ? labels_of_plane(context) : labels_of_line(context);
+}
+
+}  // namespace piblocks

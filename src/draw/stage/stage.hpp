@@ -1,0 +1,91 @@
+// The stage: bodies and their walls, and what is written and drawn on them.
+// In: a drawing context with its layout. Out: drawables, and what the loupe is made of too.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/layout.hpp"
+
+namespace piblocks {
+
+/// Greatest distance of neighbouring doubles on the axis.
+inline constexpr double kMostStep_px = 0.25;
+/// Of the stage, in fractions of the frame's shorter side.
+inline constexpr double kLeastHeight = 0.05;
+inline constexpr double kWallAbove = 0.03;  ///< of the tallest block
+
+// Room for overlays around the blocks, in fractions of the frame's shorter side.
+inline constexpr double kArrowRoom = 0.08;
+inline constexpr double kMassRoom = 0.052;
+inline constexpr double kRulerRoom = 0.07;
+
+/// The floor is on whole pixels, and room above the blocks may be short by one.
+inline constexpr double kRounded_px = 1;
+
+/// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
+/// that do not move sharp, and in the article's picture the upper and lower edges of blocks of
+/// width 1.
+inline constexpr double kLeastRounded_px = 16;
+
+/// Where the walls of a line are, if there are any.
+struct LineWalls {
+  std::optional<Rational> left;
+  std::optional<Rational> right;
+};
+/// The blocks of a line in their order, which never changes.
+std::vector<std::size_t> from_left_to_right(const BodySystem& line);
+LineWalls line_walls(const BodySystem& system);
+/// Those of them whose face is in the view.
+LineWalls seen_walls(const BodySystem& system, const View& view);
+
+/// Walls, floor and bodies. @param behind  is drawn before the blocks; may be empty
+Drawable stage(const DrawingContext& context, Drawable behind);
+
+/// The article's picture of a line: walls, blocks and counter.
+/// @param lit_digits  light up when the counter shows them in their places; may be empty
+/// @param behind      is drawn before the blocks; may be empty
+Drawable article_stage(const DrawingContext& context, std::string lit_digits, Drawable behind);
+
+/// Adds all blocks as they are at the frame's instant, or exposed.
+void add_blocks(const FrameState& shown, const Layout& layout,
+                const std::vector<BlockColors>& colors, std::vector<DrawItem>& items);
+
+/// The label of each body, or its mass if the scene shows masses: on the body; or above it, if it
+/// is a block that is heavier and no lower than its neighbours, or a disc.
+/// @throws UsageError if one has no room.
+Drawable body_labels(const DrawingContext& context);
+/// Whether the scene shows any.
+bool has_labels(const DrawingContext& context);
+/// The blocks whose labels are above them.
+std::vector<std::size_t> labelled_above(const DrawingContext& context, const Layout& layout);
+/// Room that a label needs above its block, in pixels.
+double label_room_px(const Sizes& sizes);
+
+/// Arrows above blocks, with figures where there is room for all of them. Velocities of one run
+/// differ by the square root of the mass ratio, so lengths grow less and less with the velocity, up
+/// to a longest one. Arrows of discs begin at their edge, and are as long as they are fast.
+/// @throws UsageError if the view has no room above the blocks.
+Drawable velocity_arrows(const DrawingContext& context);
+
+/// Room that the scene's overlays need above the tallest block, in pixels.
+double room_above_px(const DrawingContext& context, const Layout& layout);
+/// The same below the floor.
+double room_below_px(const Scene& scene);
+
+/// A hatched wall, its face from one place to the other, with the bodies on the left of this way.
+/// @param beyond_px  how far the face's line is longer at both ends
+std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,
+                                   const DrawingContext& context, double beyond_px = 0);
+
+/// The walls of a layout, and the floor of a line.
+std::vector<DrawItem> stage_walls(const DrawingContext& context);
+
+/// A block in the colours and with the bars of the theme.
+ExposedBlock block_at(const Rectangle& bounds, const BlockColors& colors, double line_px);
+
+/// Items that never change. @param bounds  around them; they become whole pixels
+PlateItem plate_of(ItemId id, const Rectangle& bounds, std::vector<DrawItem> items);
+
+}  // namespace piblocks

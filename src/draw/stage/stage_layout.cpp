@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/rounded.hpp"
+#include "draw/number_text.hpp"
+#include "draw/stage/stage.hpp"
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A block is higher by this for every factor of ten in mass, in heights of the lightest.
+constexpr double kHeightByMass = 0.25;
+/// More bodies have no labels, masses or arrows, nor are more drawn at all.
+constexpr std::size_t kMostMarked = 10'000;
+constexpr std::size_t kMostDrawn = 50'000;
+
+/// What is seen of the axis, and where.
+struct Axis {
+  Axis(const BodySystem& system, const View& view, const Rectangle& area) : range(view.x) {
+    const Sizes sizes(view);
+    const LineWalls all = line_walls(system);
+    const LineWalls seen = seen_walls(system, view);
+    // Nothing is drawn behind a wall's face.
+    if (all.left) range.low = std::max(range.low, *all.left);
+    if (all.right) range.high = std::min(range.high, *all.right);
+    check(view, all);
+    const double beside_wall = sizes.margin + style::kWallWidth * sizes.short_side;
+    const double opposite = seen.left || seen.right ? sizes.margin : 0;
+    left_px = area.x + (seen.left ? beside_wall : opposite);
+    const double right = area.x + area.width - (seen.right ? beside_wall : opposite);
+    scale = (right - left_px) / to_double(range.high - range.low);
+    if (scale < kLeastRounded_px) return;
+    scale = 2 * std::floor(scale / 2);
+    left_px = std::round(left_px);
+  }
+
+  Range range;
+  double left_px = 0;  ///< of its lower end
+  double scale = 1;    ///< pixels per unit
+
+ private:
+  void check(const View& view, const LineWalls& walls) const {
+    if (range.high > range.low) return;
+    if (walls.left && view.x.high <= *walls.left) {
+      throw UsageError(fmt::format(
+          "view.x: ends at {}, and the wall's face is at {}; raise its upper end, or move the wall",
+          to_text(range.high), to_text(*walls.left)));
+    }
+    throw UsageError(fmt::format(
+        "view.x: begins at {}, and the wall's face is at {}; lower its lower end, or move the wall",
+        to_text(range.low), to_text(range.high)));
+  }
+};
+
+/// The heights of blocks, in those of the lightest one.
+std::vector<double> height_ratios(const BodySystem& system, const Rational& least_mass) {
+  std::vector<double> ratios;
+  ratios.reserve(system.bodies.size());
+  for (const Body& body : system.bodies) {
+    ratios.push_back(style::kMaxHeightRatio);
+    if (!body.mass) continue;
+    const Magnitude ratio = magnitude_of(*body.mass / least_mass);
+    const double logarithm = rounded::log10(ratio.mantissa) + double(ratio.exponent);
+    ratios.back() = std::min(style::kMaxHeightRatio, 1 + kHeightByMass * logarithm);
+  }
+  return ratios;
+}
+
+/// The lightest block is a square, and others are higher by their mass.
+void set_blocks(const BodySystem& system, Layout& layout) {
+  const Body* lightest = nullptr;
+  for (const Body& body : system.bodies) {
+    if (body.mass && (lightest == nullptr || *body.mass < *lightest->mass)) lightest = &body;
+  }
+  if (lightest == nullptr) lightest = &system.bodies.front();
+  const double side = to_double(lightest->size) * layout.scale;
+  const std::vector<double> ratios = height_ratios(system, lightest->mass.value_or(1));
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    layout.shapes.push_back({to_double(system.bodies[i].size), side * ratios[i]});
+  }
+}
+
+/// Makes all blocks lower until the tallest one has room. @throws UsageError if there is too little
+void fit_heights(double room_px, const View& view, Layout& layout) {
+  if (room_px < kLeastHeight * Sizes(view).short_side) {
+    throw UsageError(fmt::format(
+        "show: the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
+        "frame larger",
+        std::max(0.0, room_px), view.width_px, view.height_px));
+  }
+  const double shrink = std::min(1.0, room_px / (layout.floor_px - layout.top_px()));
+  for (BlockShape& block : layout.shapes) {
+    block.height_px = std::max(1.0, std::floor(block.height_px * shrink));
+  }
+}
+
+Layout lay_out_line(const DrawingContext& context, const Rectangle& area, bool is_floor_at_bottom) {
+  const View& view = context.scene.view;
+  const Sizes& sizes = context.sizes;
+  const Axis axis(context.bodies.system, view, area);
+  Layout layout;
+  const bool is_whole = area.width >= view.width_px;
+  layout.content_right_px = area.x + area.width - sizes.margin;
+  layout.visible_right_px = is_whole ? view.width_px : std::floor(layout.content_right_px);
+  layout.line_px = std::max(1.0, std::round(sizes.data_line));
+  layout.scale = axis.scale;
+  check_resolution(view, layout.scale);
+
+  const double below = sizes.wall_line + room_below_px(context.scene);
+  set_blocks(context.bodies.system, layout);
+  double above = 0;
+  double room = 0;
+  do {
+    above = room_above_px(context, layout);
+    room = area.height - below - std::max(kWallAbove * sizes.short_side, above);
+    fit_heights(room, view, layout);
+    // If a block is now too low for its label, that moves above it and needs room there.
+  } while (room_above_px(context, layout) > above);
+  // What is left over is above and below in equal parts.
+  const double rest = is_floor_at_bottom ? 0 : (room - (layout.floor_px - layout.top_px())) / 2;
+  layout.floor_px = std::floor(area.y + area.height - below - rest);
+  layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
+  layout.above_px = layout.top_px() - area.y;
+  layout.below_px = area.y + area.height - layout.floor_px;
+  layout.wall_bottom_px = layout.floor_px + sizes.wall_line;
+  return layout;
+}
+
+void check_plane(const View& view, double scale) {
+  const double farthest =
+      std::max({std::fabs(to_double(view.x.low)), std::fabs(to_double(view.x.high)),
+                std::fabs(to_double(view.y.low)), std::fabs(to_double(view.y.high))});
+  if (farthest * 0x1p-52 * scale <= kMostStep_px) return;
+  throw UsageError(
+      "view.x: so far from 0 positions cannot be told apart by a pixel; show more of the plane, or "
+      "move the bodies towards 0");
+}
+
+Layout lay_out_plane(const DrawingContext& context, const Rectangle& area) {
+  const View& view = context.scene.view;
+  const Sizes& sizes = context.sizes;
+  const BodySystem& system = context.bodies.system;
+  Layout layout;
+  layout.line_px = std::max(1.0, std::round(sizes.data_line));
+  layout.window = {std::ceil(area.x), std::ceil(area.y), std::floor(area.width - 1),
+                   std::floor(area.height - 1)};
+  const double wall = system.walls.empty() ? 0 : style::kWallWidth * sizes.short_side;
+  const double margin = std::max(wall, sizes.margin / 2);
+  const double width = layout.window.width - 2 * margin;
+  const double height = layout.window.height - 2 * margin;
+  if (std::min(width, height) < kLeastHeight * sizes.short_side) {
+    throw UsageError(fmt::format(
+        "show: there is too little room for the bodies in {}x{}; leave something out, or make the "
+        "frame larger",
+        view.width_px, view.height_px));
+  }
+  layout.scale = std::min(width / to_double(view.x.high - view.x.low),
+                          height / to_double(view.y.high - view.y.low));
+  check_plane(view, layout.scale);
+  layout.origin = {
+      std::round(layout.window.width / 2 - to_double(view.x.high + view.x.low) / 2 * layout.scale),
+      std::round(layout.window.height / 2 +
+                 to_double(view.y.high + view.y.low) / 2 * layout.scale)};
+  for (const Body& body : system.bodies) {
+    const double diameter = 2 * to_double(body.size);
+    layout.shapes.push_back({diameter, diameter * layout.scale});
+  }
+  return layout;
+}
+
+void check_number(const DrawingContext& context) {
+  const std::size_t count = context.bodies.system.bodies.size();
+  const bool is_marked = context.scene.show.has(Overlay::velocities) || has_labels(context);
+  const std::size_t most = is_marked ? kMostMarked : kMostDrawn;
+  if (count <= most) return;
+  throw UsageError(fmt::format("body: {} of them cannot be drawn{}; use at most {}", count,
+                               is_marked ? " with labels, masses or velocities" : "", most));
+}
+
+}  // namespace
+
+Rational twice_energy(const BodySystem& system) {
+  Rational sum = 0;
+  for (const Body& body : system.bodies) {
+    const auto& [x, y] = body.velocity;
+    if (body.mass) sum += *body.mass * (x * x + y * y);
+  }
+  return sum;
+}
+
+Rational twice_energy(const BlockSystem& system) {
+  return system.blue.mass * system.blue.velocity * system.blue.velocity +
+         system.red.mass * system.red.velocity * system.red.velocity;
+}
+
+void check_resolution(const View& view, double scale) {
+  const double farthest =
+      std::max(std::abs(to_double(view.x.low)), std::abs(to_double(view.x.high)));
+  const double step_px = farthest * std::numeric_limits<double>::epsilon() * scale;
+  if (step_px <= kMostStep_px) return;
+  throw UsageError(
+      fmt::format("view.x: so far from 0 positions are {:.1e} apart, which would be {:.1f} pixels; "
+                  "show more of the axis, or move wall, blocks and view towards 0",
+                  step_px / scale, step_px));
+}
+
+double reach_px(const DrawingContext& context) {
+  const Scene& scene = context.scene;
+  const CollisionLog* const log = context.pair();
+  if (log == nullptr) return HUGE_VAL;
+  if (!has_span(scene, *log)) return scene.view.width_px;
+  const Span span = span_of(scene, *log);
+  // Red comes nearer and nearer, and then goes farther and farther away.
+  const double farthest =
+      std::max(log->blocks_at(span.from).red.position, log->blocks_at(span.to).red.position);
+  const Axis axis(context.bodies.system, scene.view, whole(scene.view));
+  const double right = farthest + to_double(log->blocks().red.width) / 2;
+  return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
+}
+
+Layout lay_out_stage(const DrawingContext& context, const Rectangle& area,
+                     bool is_floor_at_bottom) {
+  check_number(context);
+  if (context.is_plane()) return lay_out_plane(context, area);
+  return lay_out_line(context, area, is_floor_at_bottom);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "draw/stage/stage.hpp"
+
+namespace piblocks {
+namespace {
+
+/// In fractions of the frame's shorter side.
+constexpr double kHatchStep = 0.02;
+
+/// From places along a wall's face and behind it to pixels.
+struct WallMap {
+  WallMap(const Point& start, const Point& end)
+      : from(start),
+        length(std::sqrt((end.x - start.x) * (end.x - start.x) +
+                         (end.y - start.y) * (end.y - start.y))),
+        along{(end.x - start.x) / length, (end.y - start.y) / length} {}
+
+  Point operator()(double on, double behind) const {
+    return {from.x + on * along.x - behind * along.y, from.y + on * along.y + behind * along.x};
+  }
+  /// Around a part of the wall.
+  Rectangle bounds(double first, double last, double front, double back) const {
+    const Points corners(
+        {(*this)(first, front), (*this)(first, back), (*this)(last, front), (*this)(last, back)});
+    return corners.bounds();
+  }
+
+  Point from;
+  double length;
+  Point along;
+};
+
+PlateItem wall_plate(ItemId id, const Point& from, const Point& to, const DrawingContext& context,
+                     double beyond_px = 0) {
+  const double width = style::kWallWidth * context.sizes.short_side;
+  const WallMap map(from, to);
+  return plate_of(id, map.bounds(-1 - beyond_px, map.length + 1 + beyond_px, -1, width + 1),
+                  hatched_wall(from, to, context, beyond_px));
+}
+
+/// Along a wall, from the first place to the second.
+struct WallPart {
+  double from = -HUGE_VAL;
+  double to = HUGE_VAL;
+
+  /// Leaves the places s where distance + along * s >= 0.
+  void cut(double along, double distance) {
+    if (along > 0) from = std::max(from, -distance / along);
+    if (along < 0) to = std::min(to, -distance / along);
+  }
+};
+
+std::array<double, 2> to_doubles(const ExactVector& vector) {
+  return {to_double(vector[0]), to_double(vector[1])};
+}
+
+/// What the view shows of a straight wall, as far as the walls beside it.
+WallPart part_of(const Wall& wall, const std::vector<Wall>& walls, const View& view) {
+  // Along the wall, with the bodies on the left.
+  const std::array<double, 2> way = {to_double(wall.normal[1]), -to_double(wall.normal[0])};
+  const std::array<double, 2> point = to_doubles(wall.point);
+  WallPart part;
+  for (const Wall& other : walls) {
+    if (&other == &wall) continue;
+    const std::array<double, 2> normal = to_doubles(other.normal);
+    const std::array<double, 2> there = to_doubles(other.point);
+    part.cut(way[0] * normal[0] + way[1] * normal[1],
+             (point[0] - there[0]) * normal[0] + (point[1] - there[1]) * normal[1]);
+  }
+  part.cut(way[0], point[0] - to_double(view.x.low));
+  part.cut(-way[0], to_double(view.x.high) - point[0]);
+  part.cut(way[1], point[1] - to_double(view.y.low));
+  part.cut(-way[1], to_double(view.y.high) - point[1]);
+  return part;
+}
+
+std::vector<DrawItem> walls_of_plane(const DrawingContext& context) {
+  const std::vector<Wall>& walls = context.bodies.system.walls;
+  std::vector<DrawItem> items;
+  for (const Wall& wall : walls) {
+    const WallPart part = part_of(wall, walls, context.scene.view);
+    if (!(part.to > part.from)) continue;
+    const auto at = [&](double s) {
+      return context.layout.at(to_double(wall.point[0]) + s * to_double(wall.normal[1]),
+                               to_double(wall.point[1]) - s * to_double(wall.normal[0]));
+    };
+    // The lines of walls that meet overlap.
+    items.emplace_back(wall_plate(nth(ItemId::wall, items.size()), at(part.from), at(part.to),
+                                  context, context.sizes.wall_line / 2));
+  }
+  return items;
+}
+
+/// Walls at the ends of the floor. It goes on where there is none, but for a margin opposite a
+/// wall.
+std::vector<DrawItem> walls_of_line(const DrawingContext& context) {
+  const Layout& layout = context.layout;
+  const View& view = context.scene.view;
+  const double line = context.sizes.wall_line;
+  const double top = layout.top_px() - kWallAbove * context.sizes.short_side;
+  const LineWalls all = line_walls(context.bodies.system);
+  const LineWalls seen = seen_walls(context.bodies.system, view);
+  double left = all.right && !all.left ? context.sizes.margin : 0;
+  double right = all.left ? layout.content_right_px : layout.visible_right_px;
+  std::vector<DrawItem> items;
+  if (seen.left) {
+    const double face = layout.at(to_double(*seen.left), 0).x;
+    items.emplace_back(
+        wall_plate(ItemId::wall, {face, top}, {face, layout.wall_bottom_px}, context));
+    left = face - line;
+  }
+  if (seen.right) right = layout.at(to_double(*seen.right), 0).x + line;
+  items.emplace_back(RectangleItem{nth(ItemId::wall, 1),
+                                   {left, layout.floor_px, right - left, line},
+                                   context.palette.wall,
+                                   std::nullopt});
+  if (seen.right) {
+    const double face = right - line;
+    items.emplace_back(
+        wall_plate(nth(ItemId::wall, 2), {face, layout.wall_bottom_px}, {face, top}, context));
+  }
+  return items;
+}
+
+}  // namespace
+
+LineWalls line_walls(const BodySystem& system) {
+  LineWalls walls;
+  for (const Wall& wall : system.walls) {
+    const Rational& face = wall.point[0];
+    if (wall.normal[0] > 0) walls.left = walls.left ? std::max(*walls.left, face) : face;
+    if (wall.normal[0] < 0) walls.right = walls.right ? std::min(*walls.right, face) : face;
+  }
+  return walls;
+}
+
+LineWalls seen_walls(const BodySystem& system, const View& view) {
+  LineWalls walls = line_walls(system);
+  if (walls.left && !(view.x.low <= *walls.left && *walls.left < view.x.high)) walls.left.reset();
+  if (walls.right && !(view.x.low < *walls.right && *walls.right <= view.x.high)) {
+    walls.right.reset();
+  }
+  return walls;
+}
+
+std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,
+                                   const DrawingContext& context, double beyond_px) {
+  const Sizes& sizes = context.sizes;
+  const WallMap at(from, to);
+  const double width = style::kWallWidth * sizes.short_side;
+  const double line = sizes.wall_line;
+  // The face hides the corners of a hatch's end.
+  const double nearest = std::min(line / 2, width / 2);
+  std::vector<DrawItem> items;
+  for (double s = 0; s < at.length + width; s += kHatchStep * sizes.short_side) {
+    // At 45 degrees, cut off at the wall's ends.
+    const double begin = std::max(nearest, width - s);
+    const double end = std::min(width, width + at.length - s);
+    if (end <= begin) continue;
+    items.emplace_back(
+        PathItem{nth(ItemId::wall, items.size()),
+                 std::vector<Point>{at(s - width + begin, begin), at(s - width + end, end)}, false,
+                 std::nullopt, Stroke{context.palette.muted, sizes.grid_line}});
+  }
+  const ItemId id = nth(ItemId::wall, items.size());
+  const double last = at.length + beyond_px;
+  if (at.along.x == 0 || at.along.y == 0) {
+    items.emplace_back(RectangleItem{id, at.bounds(-beyond_px, last, 0, line), context.palette.wall,
+                                     std::nullopt});
+  } else {
+    items.emplace_back(PathItem{id,
+                                std::vector<Point>{at(-beyond_px, line / 2), at(last, line / 2)},
+                                false, std::nullopt, Stroke{context.palette.wall, line}});
+  }
+  return items;
+}
+
+std::vector<DrawItem> stage_walls(const DrawingContext& context) {
+  return context.is_plane() ? walls_of_plane(context) : walls_of_line(context);
+}
+
+}  // namespace piblocks
