@@ -185,6 +185,5 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
 
 /// The sum of mass · velocity² of all bodies that move, which never changes.
 Rational twice_energy(const BodySystem& system);
-Rational twice_energy(const BlockSystem& system);
 
 }  // namespace piblocks

@@ -325,5 +325,66 @@ TEST(FrameStates, HaveGapsWhereTheyAreNeeded) {
   EXPECT_EQ(frame_state(*log, turn, {}).gaps.y2, 0);
 }
 
+/// Two discs and two blocks, each kind in a box.
+Scene scene_of_bodies(int dimensions) {
+  BodySystem system{dimensions, {}, {{"left", {0, 0}, {2, 0}}, {"right", {8, 0}, {-1, 0}}}};
+  system.bodies.push_back(
+      {.position = {2, 2}, .velocity = {5, dimensions - 1}, .size = Rational(1, 2)});
+  system.bodies.push_back({.mass = 3, .position = {6, dimensions == 1 ? 0 : 2}, .size = 1});
+  if (dimensions == 1) {
+    system.bodies[0].position[1] = 0;
+  } else {
+    system.walls.push_back({"lower", {0, 0}, {0, 3}});
+    system.walls.push_back({"upper", {0, 4}, {0, -1}});
+  }
+  Scene scene;
+  scene.bodies = Bodies{std::move(system), std::vector<BodyStyle>(2)};
+  scene.view.frame_rate = kFrames_hz;
+  scene.time.to = Rational(6);
+  return scene;
+}
+
+/// A hit is on the surface of both bodies; pairs that met are those of the newest collisions.
+TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
+  for (const int dimensions : {1, 2}) {
+    SCOPED_TRACE(dimensions);
+    const Scene scene = scene_of_bodies(dimensions);
+    const BodySystem& system = scene.bodies->system;
+    const auto log = make_body_log(system, Rational(6));
+    const Schedule schedule = make_schedule(scene, *log);
+    int hits = 0;
+    for (std::int64_t frame = 0; frame < schedule.frame_count().get_si(); ++frame) {
+      const Rational video_s = Rational(frame) / kFrames_hz;
+      const FrameState state =
+          frame_state(*log, schedule.at(video_s), {.hits = true}, {schedule, video_s});
+      EXPECT_EQ(state.met_pairs.empty(), state.hits_per_s <= kMaxHitsPerSecond);
+      for (const Hit& hit : state.hits) {
+        ++hits;
+        const BodyCollision met = log->collision(hit.index);
+        EXPECT_EQ(hit.pair, (MetPair{met.first, met.second}));
+        const auto expect_on = [&](std::size_t body, const BodyMotion& motion) {
+          const double x = hit.contact[0] - motion.position[0];
+          const double y = hit.contact[1] - motion.position[1];
+          const double reach = to_double(system.bodies[body].size) / (dimensions == 1 ? 2 : 1);
+          EXPECT_NEAR(std::sqrt(x * x + y * y), reach, 1e-9);
+        };
+        expect_on(met.first, met.first_after);
+        if (met.second < system.bodies.size()) {
+          expect_on(met.second, met.second_after);
+          continue;
+        }
+        const Wall& wall = system.walls[met.second - system.bodies.size()];
+        double apart = 0;
+        for (const std::size_t axis : {0U, 1U}) {
+          apart += (hit.contact.at(axis) - to_double(wall.point.at(axis))) *
+                   to_double(wall.normal.at(axis));
+        }
+        EXPECT_NEAR(apart, 0, 1e-9);
+      }
+    }
+    EXPECT_GT(hits, 20);
+  }
+}
+
 }  // namespace
 }  // namespace piblocks

@@ -133,6 +133,7 @@ ReadOut slow_motion_read_out(const DrawingContext& context) {
 }
 
 constexpr int kMostDigits = 6;
+constexpr int kDigitsOfSums = 4;  ///< at most, where sums stand alone
 constexpr int kLeastDigits = 3;
 
 /// How values up to a largest one are written: with as many decimals as give the largest so many
@@ -155,9 +156,14 @@ struct Scale {
 /// Whether there is a word for each body, so that its share of a sum can be shown.
 bool has_names(const DrawingContext& context) { return context.pair() != nullptr; }
 
+/// The energy of each body that has a name, and the sum of all. Elastic collisions keep the sum.
 ReadOut energy_read_out(const DrawingContext& context, int digits) {
-  const BlockSystem& system = context.two_blocks().blocks();
+  const BodySystem& system = context.bodies.system;
   const Rational exact_sum = twice_energy(system) / 2;
+  if (!has_names(context)) {
+    const std::string text = fmt::format("Energy {}", short_text(exact_sum));
+    return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};
+  }
   const Scale scale(magnitude_of(exact_sum), digits);
   const double sum = scale.is_plain ? to_double(exact_sum) : scale.largest.mantissa;
   const auto text = [=, red_name = context.palette.red.name, blue_name = context.palette.blue.name](
@@ -165,15 +171,17 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
     return fmt::format("Energy{}: {} {} + {} {} = {}", scale.unit, red_name, scale.text(red),
                        blue_name, scale.text(blue), scale.text(both));
   };
-  // A block's velocity if it had all the energy. It may be beyond the range of a double.
-  const auto fastest = [&](const Block& block) { return root_of(2 * exact_sum / block.mass); };
-  const auto energy = [sum](const BodyMotion& block, const mpf_class& most) {
-    const double share = most > 0 ? mpf_class(block.velocity[0] / most).get_d() : 0;
+  // A body's velocity if it had all the energy. It may be beyond the range of a double.
+  const auto fastest = [&](std::size_t i) {
+    return root_of(2 * exact_sum / *system.bodies[i].mass);
+  };
+  const auto energy = [sum](const BodyMotion& body, const mpf_class& most) {
+    const double share = most > 0 ? mpf_class(body.velocity[0] / most).get_d() : 0;
     return sum * std::min(1.0, share * share);
   };
-  const auto shown_text = [=, most_of_red = fastest(system.red),
-                           most_of_blue = fastest(system.blue),
-                           is_kept = is_elastic(system)](const FrameState& shown) {
+  const auto shown_text = [=, most_of_blue = fastest(0), most_of_red = fastest(1),
+                           is_kept =
+                               is_elastic(context.two_blocks().blocks())](const FrameState& shown) {
     const double red = energy(shown.state.bodies[1], most_of_red);
     const double blue = is_kept ? sum - red : energy(shown.state.bodies[0], most_of_blue);
     return text(red, blue, is_kept ? sum : red + blue);
@@ -281,18 +289,11 @@ double room_for_read_outs(const DrawingContext& context) {
 /// With as many digits as have room, up to a most.
 ReadOut fitted(const DrawingContext& context,
                ReadOut (*read_out_of)(const DrawingContext& context, int digits)) {
-  for (int digits = kMostDigits;; --digits) {
+  for (int digits = has_names(context) ? kMostDigits : kDigitsOfSums;; --digits) {
     ReadOut read_out = read_out_of(context, digits);
     const double width = context.font.width_em(read_out.widest) * context.sizes.text;
     if (width <= room_for_read_outs(context) || digits == kLeastDigits) return read_out;
   }
-}
-
-/// The sum over all bodies, which never changes.
-ReadOut energy_sum_read_out(const DrawingContext& context) {
-  const std::string text =
-      fmt::format("Energy {}", short_text(Rational(twice_energy(context.bodies.system) / 2)));
-  return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};
 }
 
 /// From which time on the picture may be wrong.
@@ -310,15 +311,8 @@ std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
   if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
-  if (show.has(Overlay::energy)) {
-    read_outs.push_back(has_names(context) ? fitted(context, energy_read_out)
-                                           : energy_sum_read_out(context));
-  }
-  if (show.has(Overlay::momentum)) {
-    constexpr int kDigitsOfSum = 4;
-    read_outs.push_back(has_names(context) ? fitted(context, momentum_read_out)
-                                           : momentum_read_out(context, kDigitsOfSum));
-  }
+  if (show.has(Overlay::energy)) read_outs.push_back(fitted(context, energy_read_out));
+  if (show.has(Overlay::momentum)) read_outs.push_back(fitted(context, momentum_read_out));
   if (!has_span(context.scene, context.log)) return read_outs;
   const Span span = span_of(context.scene, context.log);
   if (const std::optional<double> until = context.log.certain_until(span.to)) {

@@ -63,7 +63,7 @@ Rational StraightLine::time_at(double position) const {
 
 UnfoldedMap::UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rectangle& area,
                          double margin_px)
-    : line_(scene.system),
+    : line_(log.blocks()),
       area_(area),
       margin_px_(margin_px),
       level_px_(kLevel * area.height),

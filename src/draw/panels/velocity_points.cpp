@@ -10,9 +10,9 @@
 namespace piblocks {
 
 VelocityPoints::VelocityPoints(const Scene& scene, const CollisionLog& log)
-    : wedge_angle_(GapWedge(scene.system).theta), last_(log.last()) {
-  const BlockSystem& system = scene.system;
-  const Rational energy = twice_energy(system);
+    : wedge_angle_(GapWedge(log.blocks()).theta), last_(log.last()) {
+  const BlockSystem& system = log.blocks();
+  const Rational energy = twice_energy(log.system());
   if (energy == 0) return;
   moves_ = true;
   red_factor_ = root_of(system.red.mass / energy);

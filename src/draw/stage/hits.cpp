@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "core/rounded.hpp"
@@ -60,6 +59,7 @@ std::vector<Point> directions_of(double from, double to) {
 /// Directions of the free corner at a contact, of length 1, counter-clockwise.
 std::vector<Point> directions_of(const Contact& contact) {
   constexpr double kUp = std::numbers::pi / 2;
+  if (!contact.is_right_free && !contact.is_left_free) return directions_of(0, 4 * kUp);
   return directions_of(contact.is_right_free ? 0 : kUp, contact.is_left_free ? 2 * kUp : kUp);
 }
 
@@ -97,33 +97,19 @@ std::tuple<bool, bool, std::uint32_t> HitMarks::kind_of(const Contact& contact) 
   return {contact.is_left_free, contact.is_right_free, number_of(contact.color)};
 }
 
-double HitMarks::radius_px(double age_s) const {
-  const double left = 1 - age_s / kHitLife_s;  // of its life
-  return reach_px_ * (1 - (1 - kFirstRadius) * left * left);
-}
-
 void HitMarks::add_arc(ItemId id, double age_s, const Contact& contact,
                        std::vector<DrawItem>& items) const {
-  const std::vector<Point> all = directions_of(contact);
-  const std::span directions(all);
-  const double left = 1 - age_s / kHitLife_s;
-  const double radius = radius_px(age_s);
+  const bool is_ring = !contact.is_left_free && !contact.is_right_free;
+  const double left = 1 - age_s / kHitLife_s;  // of its life
+  const double radius = (is_ring ? kRing : 1) * reach_px_ * (1 - (1 - kFirstRadius) * left * left);
   std::vector<Point> arc;
-  for (const Point& direction : directions.subspan(1, kDirections - 2)) {
+  for (const Point& direction : directions_of(contact)) {
     arc.push_back({contact.at.x + radius * direction.x, contact.at.y + radius * direction.y});
   }
-  items.emplace_back(PathItem{id, std::move(arc), false, std::nullopt,
+  arc.pop_back();
+  if (!is_ring) arc.erase(arc.begin());
+  items.emplace_back(PathItem{id, std::move(arc), is_ring, std::nullopt,
                               Stroke{faded(contact.color, left), line_px_}});
-}
-
-void HitMarks::add_ring(ItemId id, double age_s, const Point& at, const Color& color,
-                        std::vector<DrawItem>& items) const {
-  const double radius = kRing * radius_px(age_s);
-  std::vector<Point> ring = directions_of(0, 2 * std::numbers::pi);
-  for (Point& point : ring) point = {at.x + radius * point.x, at.y + radius * point.y};
-  ring.pop_back();
-  items.emplace_back(PathItem{id, std::move(ring), true, std::nullopt,
-                              Stroke{faded(color, 1 - age_s / kHitLife_s), line_px_}});
 }
 
 HitMarks::Glows HitMarks::glows_of(const Contact& contact) const {
@@ -263,7 +249,8 @@ Drawable hit_marks(const DrawingContext& context) {
           color = context.palette.text](const FrameState& shown, std::vector<DrawItem>& items) {
     for (std::size_t n = 0; n < shown.hits.size(); ++n) {
       const Hit& hit = shown.hits[n];
-      marks.add_ring(nth(ItemId::hits, n), hit.age_s, layout.at(hit.contact), color, items);
+      const Contact ring{layout.at(hit.contact), false, false, color};
+      marks.add_arc(nth(ItemId::hits, n), hit.age_s, ring, items);
     }
   };
 }

@@ -13,7 +13,7 @@
 namespace piblocks {
 
 /// Where two bodies of a line touch, and the free corner above the lower of them: marks open into
-/// it, where they cover no label of a block.
+/// it, where they cover no label of a block. In a plane nothing is free, and marks are rings.
 struct Contact {
   Point at;  ///< of the lower one's upper edge
   bool is_left_free = false;
@@ -33,9 +33,6 @@ class HitMarks {
 
   /// An arc that grows and fades.
   void add_arc(ItemId id, double age_s, const Contact& contact, std::vector<DrawItem>& items) const;
-  /// The same around a point of a plane.
-  void add_ring(ItemId id, double age_s, const Point& at, const Color& color,
-                std::vector<DrawItem>& items) const;
   /// A steady light at contacts. Nothing if hits are few. @param contacts  none at another's place
   void add_glow(double hits_per_s, std::span<const Contact> contacts,
                 std::vector<DrawItem>& items) const;
@@ -45,7 +42,6 @@ class HitMarks {
   using Glows = std::vector<std::shared_ptr<const Plate>>;
   static std::tuple<bool, bool, std::uint32_t> kind_of(const Contact& contact);
   Glows glows_of(const Contact& contact) const;
-  double radius_px(double age_s) const;
 
   double reach_px_;  ///< of arcs
   double glow_px_;   ///< and of glows

@@ -260,11 +260,17 @@ Drawable labels_of_plane(const DrawingContext& context) {
     const LabelText label = text_of(context, i);
     if (!label.text.empty()) labels.push_back(label_of_disc(context, i, label));
   }
-  return [labels = std::move(labels), layout = context.layout](const FrameState& shown,
-                                                               std::vector<DrawItem>& items) {
+  const bool has_arrows = context.scene.show.has(Overlay::velocities);
+  return [labels = std::move(labels), layout = context.layout, has_arrows](
+             const FrameState& shown, std::vector<DrawItem>& items) {
     for (const Label& label : labels) {
-      const Point centre = layout.at(shown.state.bodies[label.body].position);
+      const auto& [position, velocity] = shown.state.bodies[label.body];
+      const Point centre = layout.at(position);
       TextItem text = label.text;
+      // Below the disc if an arrow is above it.
+      if (!label.is_inside && has_arrows && velocity[1] > 0) {
+        text.origin.y = Font::kCapHeight_em * text.size_px - text.origin.y;
+      }
       text.origin = {std::round(centre.x + text.origin.x), std::round(centre.y + text.origin.y)};
       items.emplace_back(std::move(text));
     }

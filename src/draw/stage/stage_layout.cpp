@@ -194,11 +194,6 @@ Rational twice_energy(const BodySystem& system) {
   return sum;
 }
 
-Rational twice_energy(const BlockSystem& system) {
-  return system.blue.mass * system.blue.velocity * system.blue.velocity +
-         system.red.mass * system.red.velocity * system.red.velocity;
-}
-
 void check_resolution(const View& view, double scale) {
   const double farthest =
       std::max(std::abs(to_double(view.x.low)), std::abs(to_double(view.x.high)));
