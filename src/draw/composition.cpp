@@ -50,7 +50,7 @@ class Composer {
         bodies_(bodies_of(scene)),
         is_article_(scene.view.theme == Theme::article && bodies_.system.dimensions == 1),
         palette_(log.pair() != nullptr ? palette_of(scene.view.theme, scene.system)
-                                             : palette_of(scene.view.theme)),
+                                       : palette_of(scene.view.theme)),
         colors_(colors_of(bodies_, scene.view.theme, palette_)),
         sizes_(scene.view),
         context_{.scene = scene,

@@ -69,8 +69,8 @@ struct FrameState {
 /// The costly parts of a FrameState. They are computed only for drawables that read them.
 struct FrameNeeds {
   bool gaps = false;
-  bool hits = false;  ///< and hits_per_s
-  int trail_s = 0;  ///< of video at its usual speed that trails go back; 0 for none
+  bool hits = false;     ///< and hits_per_s
+  int trail_s = 0;       ///< of video at its usual speed that trails go back; 0 for none
   bool video_s = false;  ///< in stills too, which have to look it up
 };
 

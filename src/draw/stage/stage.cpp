@@ -127,8 +127,8 @@ void add_blocks(const FrameState& shown, const Layout& layout,
   std::vector<PlacedBody> blocks;
   blocks.reserve(count);
   for (std::size_t i = count; i-- > 0;) {
-    blocks.push_back({id_of(i, count), i,
-                      block_at(layout.at(i, shown), colors[i], layout.line_px)});
+    blocks.push_back(
+        {id_of(i, count), i, block_at(layout.at(i, shown), colors[i], layout.line_px)});
   }
   if (shown.exposure.empty()) {
     for (const auto& [id, body, block] : blocks) {
