@@ -36,8 +36,8 @@ std::string reached(const VideoCount& count) {
     return fmt::format("{}: {} {} to go until time 0", number, collisions(left),
                        left == 1 ? "is" : "are");
   }
-  if (count.total == 0) return number + ": there are no collisions from time 0 on";
   if (!count.total) return collisions(count.at_end);
+  if (*count.total == 0) return number + ": there are no collisions from time 0 on";
   if (count.at_end == *count.total) {
     return all_collisions(*count.total, count.is_endless) +
            (count.is_endless ? ", after which both blocks rest"

@@ -40,7 +40,7 @@ double arrow_room_px(const Sizes& sizes) {
 
 /// A shaft and a head, of different lines where there are blocks and where there are discs.
 struct Arrow {
-  ItemId id;
+  ItemId id = ItemId::velocities;
   Point tail;
   Point tip;
   Color color;

@@ -81,7 +81,8 @@ std::vector<double> turns_of(Exposures exposures, const std::vector<const Placed
     });
   }
   std::ranges::sort(turns);
-  turns.erase(std::ranges::unique(turns).begin(), turns.end());
+  const auto repeated = std::ranges::unique(turns);
+  turns.erase(repeated.begin(), repeated.end());
   return turns;
 }
 
