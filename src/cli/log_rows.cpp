@@ -70,7 +70,7 @@ std::string rows_there_are(const Log& log) {
 }
 
 Integer first_row(const OptionTexts& options, const Log& log, const std::optional<Bound>& from) {
-  const Integer since = from ? first_since(log, *from) : Integer(1);
+  Integer since = from ? first_since(log, *from) : Integer(1);
   const auto first = options.value("--first", parse_index);
   if (!first) return since;
   if (!log.has(*first)) {

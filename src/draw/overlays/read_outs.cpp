@@ -161,7 +161,7 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
   const BodySystem& system = context.bodies.system;
   const Rational exact_sum = twice_energy(system) / 2;
   if (!has_names(context)) {
-    const std::string text = fmt::format("Energy {}", short_text(exact_sum));
+    std::string text = fmt::format("Energy {}", short_text(exact_sum));
     return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};
   }
   const Scale scale(magnitude_of(exact_sum), digits);
