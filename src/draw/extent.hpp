@@ -39,7 +39,7 @@ using MeasureText = std::function<double(Face face, std::string_view utf8)>;
 Extent extent_of(const Rectangle& rectangle);
 Extent extent_of(const ExposedBlock& block);
 Extent extent_of(const MovingShapesItem& item);
-Extent extent_of(const MovingShape& shape);
+Extent extent_of(const MovingShape& moving);
 /// The characters of a line of text between two distances from its origin.
 Extent extent_of(const TextItem& text, double left_em, double right_em);
 Extent extent_of(const DrawItem& item, const MeasureText& width_em);

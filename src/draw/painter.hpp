@@ -46,11 +46,10 @@ enum class TextSetting {
 class SurfacePixels {
  public:
   SurfacePixels(cairo_t& cr, const PixelRect& area)
-      : surface_(*cairo_get_target(&cr)), area_(area) {
-    cairo_surface_flush(&surface_);
-    data_ = cairo_image_surface_get_data(&surface_);
-    stride_bytes_ = cairo_image_surface_get_stride(&surface_);
-  }
+      : surface_(flushed(*cairo_get_target(&cr))),
+        area_(area),
+        data_(cairo_image_surface_get_data(&surface_)),
+        stride_bytes_(cairo_image_surface_get_stride(&surface_)) {}
   ~SurfacePixels() { cairo_surface_mark_dirty(&surface_); }
   SurfacePixels(const SurfacePixels&) = delete;
   SurfacePixels& operator=(const SurfacePixels&) = delete;
@@ -61,16 +60,22 @@ class SurfacePixels {
   }
 
  private:
+  static cairo_surface_t& flushed(cairo_surface_t& surface) {
+    cairo_surface_flush(&surface);
+    return surface;
+  }
+
   cairo_surface_t& surface_;
   PixelRect area_;
-  unsigned char* data_ = nullptr;
-  std::ptrdiff_t stride_bytes_ = 0;
+  unsigned char* data_;
+  std::ptrdiff_t stride_bytes_;
 };
 
 /// Keeps fonts, pixels of plates and images, and a table of light, once they were needed.
 class Painter {
  public:
   explicit Painter(TextSetting setting);
+  ~Painter() = default;
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 

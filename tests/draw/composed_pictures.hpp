@@ -44,14 +44,13 @@ struct Pictures {
 struct Drawing {
   explicit Drawing(const Scene& scene)
       : log(make_collision_log(scene.system)),
-        scene_log(*log),
         bodies(bodies_of(scene)),
         palette(palette_of(scene.view.theme)),
         colors(colors_of(bodies, scene.view.theme, palette)),
         sizes(scene.view),
         context{scene,
                 bodies,
-                scene_log,
+                *log,
                 palette,
                 colors,
                 fonts,
@@ -61,7 +60,6 @@ struct Drawing {
                 needs} {}
 
   std::unique_ptr<CollisionLog> log;
-  Log scene_log;
   Bodies bodies;
   Palette palette;
   std::vector<BlockColors> colors;

@@ -185,7 +185,7 @@ Integer longest_count(const Scene& scene, const Log& log) {
   // A still may show an instant that no film comes to.
   if (!has_span(scene, log)) return log.pair() ? log.last() : to_integer(kMaxBodyCollisions);
   const Span span = span_of(scene, log);
-  const Integer last = log.pair() ? log.last() : log.count_at(span.to);
+  Integer last = log.pair() ? log.last() : log.count_at(span.to);
   if (log.first_index() > 0) return last;
   const Integer first = log.count_at(span.from);
   const auto length = [&](const Integer& count) {
