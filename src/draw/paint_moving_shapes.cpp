@@ -351,8 +351,8 @@ void Painter::paint_exposed(cairo_t& cr, const MovingShapesItem& item, const Pix
     for (std::size_t moment = 0; moment < item.shares.size(); ++moment) {
       check_stop();
       sums.next_moment(item.shares[moment]);
-      for (const auto& [shape, places] : movers) {
-        std::visit([&](const auto& any) { sums.add(any, places[moment]); }, shape);
+      for (const Mover& mover : movers) {
+        std::visit([&](const auto& any) { sums.add(any, mover.places[moment]); }, mover.shape);
       }
     }
     sums.finish();

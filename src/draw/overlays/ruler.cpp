@@ -22,6 +22,36 @@ constexpr double kBelowTick = 0.01;
 constexpr double kBesideWall_em = 0.25;
 constexpr double kLeastGap_em = 1.0;  // between figures
 
+/// What the ruler measures, and where its figures may be.
+struct RulerRange {
+  double left = 0;  ///< in the scene
+  double right = 0;
+  double first_px = 0;
+  double end_px = 0;
+};
+
+RulerRange range_of(const DrawingContext& context, bool are_figures_below_walls) {
+  const View& view = context.scene.view;
+  const LineWalls walls = line_walls(context.bodies.system);
+  const double beside_px = kBesideWall_em * context.sizes.text;
+  RulerRange range{to_double(view.x.low), to_double(view.x.high), 0, double(view.width_px)};
+  const auto foot_px = [&](const Rational& face) {
+    return context.layout.at(to_double(face), 0).x;
+  };
+  if (walls.left) {
+    range.left = std::max(range.left, to_double(*walls.left));
+    if (!are_figures_below_walls) range.first_px = foot_px(*walls.left) + beside_px;
+  }
+  if (walls.right) {
+    range.right = std::min(range.right, to_double(*walls.right));
+    if (!are_figures_below_walls) range.end_px = foot_px(*walls.right) - beside_px;
+  }
+  range.first_px = std::max(context.sizes.margin, range.first_px);
+  range.end_px = std::min(
+      {range.end_px, view.width_px - context.sizes.margin, context.layout.content_right_px});
+  return range;
+}
+
 }  // namespace
 
 double room_below_px(const Scene& scene) {
@@ -48,26 +78,9 @@ Drawable ruler(const DrawingContext& context) {
                     "{:.0f}; leave out 'ruler', or make the frame higher",
                     below_px, std::max(0.0, layout.below_px)));
   }
-  const LineWalls walls = line_walls(context.bodies.system);
-  double left = to_double(scene.view.x.low);
-  double right = to_double(scene.view.x.high);
-  // Of the walls' feet.
-  double first_px = 0;
-  double end_px = scene.view.width_px;
   // Figures beside the foot of the wall are not below it.
   const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.wall_bottom_px;
-  if (walls.left) {
-    left = std::max(left, to_double(*walls.left));
-    if (!are_below_wall)
-      first_px = layout.at(to_double(*walls.left), 0).x + kBesideWall_em * size_px;
-  }
-  if (walls.right) {
-    right = std::min(right, to_double(*walls.right));
-    if (!are_below_wall)
-      end_px = layout.at(to_double(*walls.right), 0).x - kBesideWall_em * size_px;
-  }
-  first_px = std::max(sizes.margin, first_px);
-  end_px = std::min({end_px, scene.view.width_px - sizes.margin, layout.content_right_px});
+  const auto [left, right, first_px, end_px] = range_of(context, are_below_wall);
   const FigureAxis axis{
       .low = left, .high = right, .em = size_px / layout.scale, .gap_em = kLeastGap_em};
   const Ticks ticks =

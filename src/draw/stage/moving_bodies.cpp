@@ -81,8 +81,7 @@ std::vector<double> turns_of(Exposures exposures, const std::vector<const Placed
     });
   }
   std::ranges::sort(turns);
-  const auto repeated = std::ranges::unique(turns);
-  turns.erase(repeated.begin(), repeated.end());
+  turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
   return turns;
 }
 
