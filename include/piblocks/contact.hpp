@@ -4,10 +4,10 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 namespace piblocks {
 
@@ -69,7 +69,10 @@ struct TieRank {
     if (is_a_movable && is_b_movable) return {false, std::min(a, b), std::max(a, b)};
     return is_a_movable ? TieRank{true, a, b} : TieRank{true, b, a};
   }
-  friend constexpr auto operator<=>(const TieRank&, const TieRank&) = default;
+  friend constexpr bool operator<(const TieRank& a, const TieRank& b) {
+    return std::tie(a.has_immovable, a.first, a.second) <
+           std::tie(b.has_immovable, b.first, b.second);
+  }
 };
 
 }  // namespace piblocks

@@ -167,9 +167,7 @@ class EventSimulator {
   explicit EventSimulator(std::vector<Body> particles)
       : particles_(std::move(particles)), waiting_(particles_.size() * particles_.size()) {
     validate();
-    list_pairs();
-    for (const auto& [i, j] : pairs_) predict(i, j);
-    next_ = soonest_pair();
+    prepare();
   }
 
   /// The particles at time(): at the start, then just after the last collision.
@@ -237,8 +235,9 @@ class EventSimulator {
     return i < j ? i * particles_.size() + j : j * particles_.size() + i;
   }
 
-  /// All pairs that can collide, in the order in which simultaneous collisions happen.
-  void list_pairs() {
+  /// Lists all pairs that can collide, in the order in which simultaneous collisions happen, and
+  /// finds the first.
+  void prepare() {
     const auto rank_of = [this](const Pair& pair) {
       return TieRank::of(
           static_cast<std::uint32_t>(pair.first), !particles_[pair.first].is_immovable(),
@@ -250,7 +249,10 @@ class EventSimulator {
         if (can_collide) pairs_.emplace_back(i, j);
       }
     }
-    std::ranges::sort(pairs_, {}, rank_of);
+    std::ranges::sort(pairs_,
+                      [&](const Pair& a, const Pair& b) { return rank_of(a) < rank_of(b); });
+    for (const auto& [i, j] : pairs_) predict(i, j);
+    next_ = soonest_pair();
   }
 
   std::optional<Pair> soonest_pair() const {

@@ -35,11 +35,11 @@ Rational short_time(const Rational& time, const std::optional<Rational>& next) {
 /// Steps are computed when they are first asked for, and stay.
 class StoredBodyLog final : public Log {
  public:
-  StoredBodyLog(const BodySystem& system, const std::optional<Rational>& horizon)
+  StoredBodyLog(const BodySystem& system, std::optional<Rational> horizon)
       : Log(system),
         stepper_(system.dimensions == 1 ? make_line_stepper(system) : make_disc_stepper(system)),
         start_(motions_at_start(system)),
-        horizon_(horizon),
+        horizon_(std::move(horizon)),
         never_ends_(may_never_end(system)),
         of_body_(system.bodies.size()) {}
 
@@ -57,7 +57,7 @@ class StoredBodyLog final : public Log {
     }
     compute([&] { return is_complete_; });
     const std::shared_lock lock(mutex_);
-    return Integer(steps_.size());
+    return {steps_.size()};
   }
 
   bool never_ends() const override { return never_ends_; }

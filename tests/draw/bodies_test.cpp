@@ -373,11 +373,11 @@ TEST(BodyPictures, HitsAreMarkedWhereBodiesTouch) {
   for (const std::string name : {"three-blocks", "row", "superball", "touch", "billiard"}) {
     Scene scene = shipped(name, {{"view.shutter", "0"}, {"view.fps", "60"}});
     const auto log =
-        make_body_log(scene.bodies->system,
-                      scene.time.to.is_time() ? std::optional(scene.time.to.offset) : std::nullopt);
+        make_log(scene.bodies->system,
+                 scene.time.to.is_time() ? std::optional(scene.time.to.offset) : std::nullopt);
     const Film film(scene);
     int marks = 0;
-    for (Integer k = 1; k <= std::min<Integer>(log->size(), 8); ++k) {
+    for (Integer k = 1; k <= std::min<Integer>(log->last(), 8); ++k) {
       const double seen_s = log->collision_time(k).hi / to_double(scene.time.speed);
       const auto number = static_cast<std::int64_t>(std::ceil(seen_s * 60));
       if (number >= film.frame_count()) break;

@@ -164,8 +164,8 @@ TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
     double before = 0;
     for (std::size_t i = 0; i < dots.size(); ++i) {
       const Integer k(static_cast<unsigned long>(i) + 1);
-      const Collision collision = pictures.log->collision(k);
-      const Gaps gaps = gaps_at_collision(*pictures.log, k);
+      const Collision collision = pictures.log->blocks_collision(k);
+      const Gaps gaps = pictures.log->gaps_at_collision(k);
       EXPECT_NEAR(plane.distance(dots[i].centre),
                   std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1),
                   1e-9)
@@ -190,7 +190,7 @@ TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
     const std::vector<DiscItem> dots = dots_of(list);
     const std::vector<PathItem> rays = rays_of(list);
     ASSERT_EQ(rays.size(), dots.size());
-    const bool is_thinned = pictures.log->size() > 128;
+    const bool is_thinned = pictures.log->last() > 128;
     for (std::size_t i = 0; i < dots.size(); ++i) {
       const double angle = plane.angle(dots[i].centre);
       const double k = is_thinned ? std::round(angle / plane.theta) : double(i + 1);
@@ -224,9 +224,9 @@ TEST(Unfolded, ManyMirrorsAreThinnedButTrue) {
     const std::vector<DiscItem> dots = dots_of(pictures.at(pictures.end()));
     ASSERT_GT(dots.size(), 20U) << digits;
     ASSERT_LT(dots.size(), 600U) << digits;
-    const Integer& last = pictures.log->size();
+    const Integer last = pictures.log->last();
     const auto distance = [&](const Integer& k) {
-      const Gaps gaps = gaps_at_collision(*pictures.log, k);
+      const Gaps gaps = pictures.log->gaps_at_collision(k);
       return std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1);
     };
     for (std::size_t i = 0; i < 4; ++i) {
@@ -288,7 +288,7 @@ TEST(Unfolded, TheTitleSaysHowManyMirrors) {
   for (const Settings& settings : systems()) {
     const Pictures pictures(scene_with(2, settings));
     const std::string text = text_of(pictures.at(1));
-    const std::string count = pictures.log->size().get_str();
+    const std::string count = pictures.log->last().get_str();
     const bool says_count = text.find(count + " mirror") != std::string::npos ||
                             text.find("⌋ = " + count + " of them") != std::string::npos;
     EXPECT_TRUE(says_count) << text;

@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Instant instant = parse_instant(text);
     constexpr std::size_t kLong = 10'000;  // characters
     const std::string exact = exact_text(instant);
-    if (exact.last() < kLong && parse_instant(exact) != instant) std::abort();
+    if (exact.size() < kLong && parse_instant(exact) != instant) std::abort();
   });
   try_to([&] { check_name(FramePattern(text)); });
   return 0;

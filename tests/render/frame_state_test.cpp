@@ -84,7 +84,7 @@ double surface_of(const BlockSystem& system, const Collision& collision) {
 
 FrameState state_of(const CollisionLog& log, const Schedule& schedule, std::int64_t frame) {
   const Rational video_s = Rational(frame) / kFrames_hz;
-  return frame_state(log, schedule.at(video_s), {.hits = true}, {schedule, video_s});
+  return frame_state(log, schedule.at(video_s), {.hits = true}, 1, {schedule, video_s});
 }
 
 struct Seen {
@@ -319,10 +319,10 @@ TEST(Hits, DoNotDependOnTheOrderOfFrames) {
 TEST(FrameStates, HaveGapsWhereTheyAreNeeded) {
   const auto log = make_collision_log(article_system(20));
   const FrameTime turn{turn_of(log->blocks()).value()};
-  const Gaps gaps = frame_state(*log, turn, {.gaps = true}).gaps;
+  const Gaps gaps = frame_state(*log, turn, {.gaps = true}, 1).gaps;
   EXPECT_GT(gaps.y2, 1.4e-19);
   EXPECT_LT(gaps.y2, 1.6e-19);
-  EXPECT_EQ(frame_state(*log, turn, {}).gaps.y2, 0);
+  EXPECT_EQ(frame_state(*log, turn, {}, 1).gaps.y2, 0);
 }
 
 /// Two discs and two blocks, each kind in a box.
@@ -350,13 +350,13 @@ TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
     SCOPED_TRACE(dimensions);
     const Scene scene = scene_of_bodies(dimensions);
     const BodySystem& system = scene.bodies->system;
-    const auto log = make_body_log(system, Rational(6));
+    const auto log = make_log(system, Rational(6));
     const Schedule schedule = make_schedule(scene, *log);
     int hits = 0;
     for (std::int64_t frame = 0; frame < schedule.frame_count().get_si(); ++frame) {
       const Rational video_s = Rational(frame) / kFrames_hz;
       const FrameState state =
-          frame_state(*log, schedule.at(video_s), {.hits = true}, {schedule, video_s});
+          frame_state(*log, schedule.at(video_s), {.hits = true}, 1, {schedule, video_s});
       EXPECT_EQ(state.met_pairs.empty(), state.hits_per_s <= kMaxHitsPerSecond);
       for (const Hit& hit : state.hits) {
         ++hits;

@@ -174,8 +174,8 @@ std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
   if (plan.is_doubt) return 0;
   const bool is_partner_movable = is_disc(plan.partner) && system_.is_movable(plan.partner);
   const TieRank rank = TieRank::of(disc, true, plan.partner, is_partner_movable);
-  return (std::uint64_t{rank.has_immovable} << 63) | (std::uint64_t{rank.first} << 32) |
-         rank.second;
+  const std::uint64_t group = rank.has_immovable ? std::uint64_t{1} << 63 : 0;
+  return group | (std::uint64_t{rank.first} << 32) | rank.second;
 }
 
 bool Stepper::is_stale(const Plan& plan) const {
