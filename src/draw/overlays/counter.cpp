@@ -182,11 +182,12 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
 }
 
 Integer longest_count(const Scene& scene, const Log& log) {
+  const bool is_pair = log.pair() != nullptr;
+  if (is_pair && log.first_index() > 0) return log.last();
   // A still may show an instant that no film comes to.
-  if (!has_span(scene, log)) return log.pair() ? log.last() : to_integer(kMaxBodyCollisions);
+  if (!has_span(scene, log)) return is_pair ? log.last() : to_integer(kMaxBodyCollisions);
   const Span span = span_of(scene, log);
-  Integer last = log.pair() ? log.last() : log.count_at(span.to);
-  if (log.first_index() > 0) return last;
+  Integer last = is_pair ? log.last() : log.count_at(span.to);
   const Integer first = log.count_at(span.from);
   const auto length = [&](const Integer& count) {
     return count_text(count, scene.show.base).size();

@@ -13,8 +13,8 @@ namespace {
 using Exposures = std::span<const WeightedExposure>;
 using Still = std::variant<ExposedBlock, DiscItem>;
 
-/// Above the ids of bodies.
-constexpr std::size_t kExposed = 65535;
+/// Above the ids of bodies, and of the bars of the last of them.
+constexpr ItemId kMovingBodies = nth(ItemId::blue_block, 500);
 
 // Moments of which the mean is taken: so many, and one more for each pixel of the longest way.
 // Against 16,384 moments the worst pixel was off by 2 of 255 for ways of 2 to 140 pixels.
@@ -85,15 +85,19 @@ std::vector<double> turns_of(Exposures exposures, const std::vector<const Placed
   return turns;
 }
 
-/// In the middle of equal parts of each time between two turns; if there are more turns than
-/// moments, of the whole. Where a body bounces often, they follow no rhythm to fall in step with.
+/// One in each of equal parts of each time between two turns; if there are more turns than moments,
+/// of the whole. Of few times they are in the middle of their parts; where a body bounces often,
+/// they follow no rhythm, so that they do not see the same places in each flight.
 Moments moments_for(std::size_t count, const std::vector<double>& turns, std::size_t most_pieces) {
   constexpr double kGolden = 0.6180339887498949;
+  constexpr std::size_t kFewTurns = 16;
+  const auto irrational = [](std::size_t i) {
+    return kGolden * double(i) - std::floor(kGolden * double(i));
+  };
   Moments moments;
   if (turns.size() > count) {
     for (std::size_t i = 0; i < count; ++i) {
-      const double irrational = kGolden * double(i) - std::floor(kGolden * double(i));
-      const double within = 4 * most_pieces < count ? 0.5 : irrational;
+      const double within = 4 * most_pieces < count ? 0.5 : irrational(i);
       moments.add((double(i) + within) / double(count), 1 / double(count));
     }
     return moments;
@@ -101,8 +105,9 @@ Moments moments_for(std::size_t count, const std::vector<double>& turns, std::si
   for (std::size_t turn = 1; turn < turns.size(); ++turn) {
     const double length = turns[turn] - turns[turn - 1];
     const double parts = std::ceil(length * double(count));
+    const double within = turns.size() <= kFewTurns ? 0.5 : irrational(turn);
     for (double part = 0; part < parts; ++part) {
-      moments.add(turns[turn - 1] + length * (part + 0.5) / parts, length / parts);
+      moments.add(turns[turn - 1] + length * (part + within) / parts, length / parts);
     }
   }
   return moments;
@@ -162,17 +167,18 @@ void mirror(ExposedBlocksItem& item, double frame_px) {
 
 ExposedBlocksItem closed_blocks_item(std::span<const PlacedBody> bodies, const Layout& map,
                                      Exposures exposures) {
-  const double frame_px = map.visible_right_px;
+  const double frame_px = std::ceil(map.visible_right_px);  // on the grid of pixels, mirrored too
   const auto block_of = [&](std::size_t body) {
     return std::get<ExposedBlock>(std::ranges::find(bodies, body, &PlacedBody::body)->still);
   };
   const ClosedExposure& closed = *exposures.front().exposure.closed;
   const bool is_mirrored = closed.sign < 0;
-  const AxisPlace axis{is_mirrored ? frame_px - map.origin.x : map.origin.x, map.scale, frame_px};
+  const AxisPlace axis{is_mirrored ? frame_px - map.origin.x : map.origin.x, map.scale,
+                       is_mirrored ? frame_px : map.visible_right_px};
   ExposedBlocksItem item =
       exposed_blocks(block_of(closed.red), block_of(closed.blue), axis, exposures);
   if (is_mirrored) mirror(item, frame_px);
-  item.id = nth(ItemId::red_block, kExposed);
+  item.id = kMovingBodies;
   return item;
 }
 
@@ -205,7 +211,7 @@ void add_exposed(std::span<const PlacedBody> bodies, const Layout& map, const Pi
   const double count = std::min({kLeastMoments + longest_px, kMostMoments, most});
   Moments moments = moments_for(static_cast<std::size_t>(std::max(count, kFewMoments)),
                                 turns_of(exposures, movers), most_pieces);
-  MovingShapesItem moving{nth(ItemId::red_block, kExposed), std::move(moments.shares), {}};
+  MovingShapesItem moving{kMovingBodies, std::move(moments.shares), {}};
   for (const PlacedBody* const placed : movers) {
     moving.shapes.push_back({placed->still, places_of(exposures, placed->body, map,
                                                       corner_of(placed->still), moments.times)});
