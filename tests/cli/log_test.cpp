@@ -58,10 +58,10 @@ TEST_P(EnginesLogTest, EnginesAgree) {
   const Arguments log{"log", "--digits", std::to_string(GetParam()), "--engine"};
   const auto unfolded = lines(output_of(log + Arguments{"unfolded"}));
   const auto events = lines(output_of(log + Arguments{"events"}));
-  ASSERT_EQ(unfolded.last(), events.size());
+  ASSERT_EQ(unfolded.size(), events.size());
   const double largest_velocity = std::pow(10.0, GetParam() - 1);
   const std::vector<double> scales{10, 0, 10, 10, largest_velocity, 1};  // from "time" on
-  for (std::size_t row = 1; row < unfolded.last(); ++row) {
+  for (std::size_t row = 1; row < unfolded.size(); ++row) {
     const auto a = split(unfolded[row], ',');
     const auto b = split(events[row], ',');
     ASSERT_EQ(a[0], b[0]);

@@ -55,8 +55,8 @@ TEST_F(StillTest, VectorFilesAreSharpAndSaySo) {
   const auto picture = [&](const std::string& name, const Arguments& more) {
     const CommandResult result =
         piblocks(Arguments{"still", "--size", "320x180", "-o", name, "--at", "4"} + more);
-    EXPECT_EQ(result.exit_code, 0) << result.errors;
-    return std::pair{contents(name), result.errors};
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return std::pair{contents(name), result.err};
   };
   for (const char* name : {"still.svg", "still.pdf"}) {
     for (const Arguments& scene : {Arguments{}, Arguments{"row"}, Arguments{"touch"}}) {

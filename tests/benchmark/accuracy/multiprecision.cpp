@@ -14,7 +14,7 @@ class Multiprecision final : public Method {
   Numbers blue_at(const BlockSystem& system, const Instants& instants,
                   const Deadline& deadline) const override {
     std::vector<Reference> blue;
-    blue.reserve(instants.exact.last());
+    blue.reserve(instants.exact.size());
     for (const Rational& time : instants.exact) {
       deadline.check();
       const oracle::ExactState state = oracle::high_precision_state(system, time);

@@ -47,7 +47,7 @@ class Product final : public Method {
                   const Deadline&) const override {
     const auto log = make_collision_log(system);
     std::vector<double> blue;
-    blue.reserve(instants.exact.last());
+    blue.reserve(instants.exact.size());
     for (const Rational& time : instants.exact) blue.push_back(log->blocks_at(time).blue.position);
     return blue;
   }

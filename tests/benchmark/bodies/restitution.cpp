@@ -80,7 +80,7 @@ Answers right_inelastic_times(const BlockSystem& system) {
   Answers right = inelastic_loop_times<Wide>(system);
   constexpr std::size_t kExact = 100;
   const auto exact = oracle::inelastic_run(system, kExact).events;
-  for (std::size_t i = 0; i < exact.last(); ++i) {
+  for (std::size_t i = 0; i < exact.size(); ++i) {
     if (i < right.size() && relative_error(right[i], to_wide(exact[i].time)) < 1e-100) continue;
     throw SimulationError(
         fmt::format("restitution: collision {} in 400 bits is not that in rational numbers: either "
