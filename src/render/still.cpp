@@ -50,9 +50,14 @@ Draw* drawing_for(std::string_view output, Draw* png, const char* command, const
 void write_picture(const std::string& output, const char* command, const std::stop_token& stop,
                    const auto& draw) {
   OutputFile file(output);
-  const Bytes picture = draw();
-  if (stop.stop_requested()) throw Interrupted(fmt::format("{}: interrupted", command));
-  file.write(picture);
+  const auto stopped = [&] { return Interrupted(fmt::format("{}: interrupted", command)); };
+  try {
+    const Bytes picture = draw();
+    if (stop.stop_requested()) throw stopped();
+    file.write(picture);
+  } catch (const Interrupted&) {
+    throw stopped();
+  }
   file.finish();
 }
 

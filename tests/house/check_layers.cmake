@@ -14,7 +14,7 @@ set(scene_may core physics scene)
 set(sound_may core physics scene sound)
 # Drawing sees states and collisions, not the engines that make them.
 set(draw_may core physics/block_system physics/bodies physics/restitution physics/run
-    physics/timeline physics/exposure scene draw)
+    physics/log physics/exposure scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core h264 media)
 set(golden_may core media golden)
@@ -30,7 +30,7 @@ list(REMOVE_ITEM web_may python)
 # The layer of each header in include/piblocks.
 set(core_headers error exact image version)
 set(h264_headers)
-set(physics_headers block_system bodies event_simulator restitution run timeline)
+set(physics_headers block_system bodies contact event_simulator log restitution run)
 set(scene_headers instant pacing scene script)
 set(media_headers encode)
 set(golden_headers compare)
