@@ -26,9 +26,7 @@ struct Collapse {
 std::optional<Collapse> collapse_of(const BlockSystem& system);
 
 /// Whether log.last() stands for infinitely many collisions: see Collapse.
-inline bool is_endless(const Log& log) {
-  return log.pair() != nullptr && log.pair()->is_endless();
-}
+inline bool is_endless(const Log& log) { return log.pair() != nullptr && log.pair()->is_endless(); }
 
 /// How elastic the article's blocks have to be. With less restitution the blocks meet more often,
 /// not less: see src/physics/README.md.

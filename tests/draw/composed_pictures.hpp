@@ -48,16 +48,9 @@ struct Drawing {
         palette(palette_of(scene.view.theme)),
         colors(colors_of(bodies, scene.view.theme, palette)),
         sizes(scene.view),
-        context{scene,
-                bodies,
-                *log,
-                palette,
-                colors,
-                fonts,
-                fonts.of(text_face_of(scene.view.theme)),
-                layout,
-                sizes,
-                needs} {}
+        context{
+            scene,  bodies, *log, palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)),
+            layout, sizes,  needs} {}
 
   std::unique_ptr<CollisionLog> log;
   Bodies bodies;
