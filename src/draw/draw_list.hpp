@@ -132,6 +132,8 @@ struct TouchingBlocks {
   double behind_x = 0;
   double front_x = 0;
   double share = 0;
+  /// In the pixel of this place both have an edge.
+  double right_x() const { return std::max(behind_x, front_x); }
   bool operator==(const TouchingBlocks&) const = default;
 };
 
@@ -141,7 +143,7 @@ struct ExposedBlocksItem {
   ItemId id = ItemId::red_block;
   ExposedBlock behind;  ///< they never overlap, but may share a column of pixels
   ExposedBlock front;
-  std::vector<TouchingBlocks> contacts;  ///< in the order of behind_x
+  std::vector<TouchingBlocks> contacts;  ///< in the order of right_x()
   bool operator==(const ExposedBlocksItem&) const = default;
 };
 

@@ -168,7 +168,7 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
                    item.contacts);
     }
   }
-  std::ranges::sort(item.contacts, {}, &TouchingBlocks::behind_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
   return item;
 }
 

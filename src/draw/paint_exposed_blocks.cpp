@@ -42,7 +42,7 @@ class ExposedColumn {
     }
     x_ = x;
     const auto at = [&](double place) {
-      return std::ranges::lower_bound(item_.contacts, place, {}, &TouchingBlocks::behind_x);
+      return std::ranges::lower_bound(item_.contacts, place, {}, &TouchingBlocks::right_x);
     };
     // Within a block, one column is like the next.
     bool is_new = !contacts_.empty();

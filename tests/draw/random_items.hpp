@@ -128,7 +128,7 @@ inline ExposedBlocksItem any_exposed(Random& random, ItemId id, int width, int h
   for (std::int64_t i = random.integer(-3, 5); i > 0; --i) {
     item.contacts.push_back({anywhere(random, width), anywhere(random, width), 0.1});
   }
-  std::ranges::sort(item.contacts, {}, &TouchingBlocks::behind_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
   return item;
 }
 

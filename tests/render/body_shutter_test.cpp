@@ -114,7 +114,6 @@ TEST(BodyShutter, FramesOfBlocksAreMeansOfInstants) {
   }
 }
 
-/// Those that stay are painted first, which shows in the pixel that they share with one that moves.
 TEST(BodyShutter, FramesOfTouchingBlocksAreMeansOfInstants) {
   std::vector<Body> bodies{{.position = {1, 0}, .velocity = {7, 0}, .size = Rational(3, 7)}};
   for (int i = 0; i < 4; ++i) {
@@ -122,7 +121,7 @@ TEST(BodyShutter, FramesOfTouchingBlocksAreMeansOfInstants) {
   }
   const Scene scene = scene_of(box(std::move(bodies), 1), 2);
   for (const std::int64_t frame : {1, 2, 3, 5, 8}) {
-    EXPECT_LE(difference_of(scene, frame).worst, 33) << frame;
+    EXPECT_LE(difference_of(scene, frame).worst, 3) << frame;
   }
 }
 
@@ -274,9 +273,7 @@ TEST(BodyShutter, FramesOfTheClosedFormAreMeansOfInstants) {
     const Scene scene = scene_of(std::move(system), 8);
     // The turn is at 4.
     for (const std::int64_t frame : {15, 30, 38, 39, 40, 60}) {
-      // The painter knows contacts where the front block is on the left; mirrored, the pixel that
-      // both share is off.
-      EXPECT_LE(difference_of(scene, frame).worst, sign > 0 ? 2.5 : 27) << frame;
+      EXPECT_LE(difference_of(scene, frame).worst, 2.5) << frame;
     }
   }
 }

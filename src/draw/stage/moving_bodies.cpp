@@ -12,6 +12,7 @@ namespace {
 
 using Exposures = std::span<const WeightedExposure>;
 using Still = std::variant<ExposedBlock, DiscItem>;
+using PlacedBodies = std::vector<const PlacedBody*>;
 
 /// Above the ids of bodies, and of the bars of the last of them.
 constexpr ItemId kMovingBodies = nth(ItemId::blue_block, 500);
@@ -73,7 +74,7 @@ struct Moments {
 };
 
 /// When bodies change their velocity, and both ends of the exposure.
-std::vector<double> turns_of(Exposures exposures, const std::vector<const PlacedBody*>& movers) {
+std::vector<double> turns_of(Exposures exposures, const PlacedBodies& movers) {
   std::vector<double> turns{0, 1};
   for (const PlacedBody* const mover : movers) {
     each_piece(exposures, mover->body, [&](double begin, double, const BodyPiece&) {
@@ -133,12 +134,11 @@ std::vector<Point> places_of(Exposures exposures, std::size_t body, const Layout
   return places;
 }
 
-void add_still(ItemId id, const Still& body, std::vector<DrawItem>& items) {
-  if (const auto* disc = std::get_if<DiscItem>(&body)) {
+void add_still(const PlacedBody& placed, std::vector<DrawItem>& items) {
+  if (const auto* disc = std::get_if<DiscItem>(&placed.still)) {
     items.emplace_back(*disc);
-    std::get<DiscItem>(items.back()).id = id;
   } else {
-    add_rectangles(id, std::get<ExposedBlock>(body), items);
+    add_rectangles(placed.id, std::get<ExposedBlock>(placed.still), items);
   }
 }
 
@@ -147,6 +147,17 @@ Point corner_of(const Still& body) {
   if (std::holds_alternative<DiscItem>(body)) return {};
   const Rectangle& bounds = std::get<ExposedBlock>(body).bounds;
   return {bounds.width / 2, bounds.height};
+}
+
+/// The columns that a block is in while the picture is exposed, and a pixel beside them.
+Travel columns_of(const ExposedBlock& block, std::size_t body, const Layout& map,
+                  Exposures exposures) {
+  Travel columns{HUGE_VAL, -HUGE_VAL};
+  each_piece(exposures, body, [&](double, double, const BodyPiece& piece) {
+    columns.include({map.at(piece.from).x, map.at(piece.to).x});
+  });
+  const double reach = block.bounds.width / 2 + 1;
+  return {columns.from - reach, columns.to + reach};
 }
 
 /// The picture of the closed form, turned round in a frame.
@@ -162,7 +173,7 @@ void mirror(ExposedBlocksItem& item, double frame_px) {
     contact.behind_x = turned(contact.behind_x, item.behind);
     contact.front_x = turned(contact.front_x, item.front);
   }
-  std::ranges::reverse(item.contacts);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
 }
 
 ExposedBlocksItem closed_blocks_item(std::span<const PlacedBody> bodies, const Layout& map,
@@ -182,41 +193,69 @@ ExposedBlocksItem closed_blocks_item(std::span<const PlacedBody> bodies, const L
   return item;
 }
 
+/// Adds the bodies that stay. @return the others, which are painted moment by moment
+PlacedBodies add_still_bodies(std::span<const PlacedBody> bodies, const Layout& map,
+                              Exposures exposures, std::vector<DrawItem>& items) {
+  PlacedBodies moving;
+  std::vector<Travel> columns;  // of the blocks among these
+  for (const PlacedBody& placed : bodies) {
+    bool is_moving = way_of(exposures, placed.body, map) > kStill_px;
+    // A block that stays shares pixels with those that touch it, and is painted after some of them.
+    if (const auto* const block = std::get_if<ExposedBlock>(&placed.still)) {
+      const Travel own = columns_of(*block, placed.body, map, exposures);
+      is_moving = is_moving || std::ranges::any_of(columns, [&](const Travel& other) {
+                    return own.from < other.to && other.from < own.to;
+                  });
+      if (is_moving) columns.push_back(own);
+    }
+    if (is_moving) {
+      moving.push_back(&placed);
+    } else {
+      add_still(placed, items);
+    }
+  }
+  return moving;
+}
+
+Moments moments_of(const PlacedBodies& moving, const Layout& map, const PixelRect& frame,
+                   Exposures exposures) {
+  double longest_px = 0;
+  double edges = 0;
+  std::size_t most_pieces = 0;
+  for (const PlacedBody* const placed : moving) {
+    longest_px = std::max(longest_px, way_of(exposures, placed->body, map));
+    edges += edges_px(placed->still, frame);
+    std::size_t pieces = 0;
+    for (const auto& [share, exposure] : exposures) pieces += exposure.pieces[placed->body].size();
+    most_pieces = std::max(most_pieces, pieces);
+  }
+  const double most = std::min(kMostEdges_px / edges, kMostPlaces / double(moving.size()));
+  const double count = std::min({kLeastMoments + longest_px, kMostMoments, most});
+  return moments_for(static_cast<std::size_t>(std::max(count, kFewMoments)),
+                     turns_of(exposures, moving), most_pieces);
+}
+
 }  // namespace
 
 void add_exposed(std::span<const PlacedBody> bodies, const Layout& map, const PixelRect& frame,
                  Exposures exposures, std::vector<DrawItem>& items) {
-  const bool is_closed = !exposures.empty() && exposures.front().exposure.closed;
-  std::vector<const PlacedBody*> movers;
-  double longest_px = 0;
-  double edges = 0;
-  std::size_t most_pieces = 0;
-  for (const PlacedBody& placed : bodies) {
-    if (is_closed && exposures.front().exposure.closed->has(placed.body)) continue;
-    const double way_px = is_closed ? 0 : way_of(exposures, placed.body, map);
-    if (!(way_px > kStill_px)) {
-      add_still(placed.id, placed.still, items);
-      continue;
+  if (!exposures.empty() && exposures.front().exposure.closed) {
+    const ClosedExposure& closed = *exposures.front().exposure.closed;
+    for (const PlacedBody& placed : bodies) {
+      if (!closed.has(placed.body)) add_still(placed, items);
     }
-    movers.push_back(&placed);
-    longest_px = std::max(longest_px, way_px);
-    edges += edges_px(placed.still, frame);
-    std::size_t pieces = 0;
-    for (const auto& [share, exposure] : exposures) pieces += exposure.pieces[placed.body].size();
-    most_pieces = std::max(most_pieces, pieces);
+    items.emplace_back(closed_blocks_item(bodies, map, exposures));
+    return;
   }
-  if (is_closed) items.emplace_back(closed_blocks_item(bodies, map, exposures));
-  if (movers.empty()) return;
-  const double most = std::min(kMostEdges_px / edges, kMostPlaces / double(movers.size()));
-  const double count = std::min({kLeastMoments + longest_px, kMostMoments, most});
-  Moments moments = moments_for(static_cast<std::size_t>(std::max(count, kFewMoments)),
-                                turns_of(exposures, movers), most_pieces);
-  MovingShapesItem moving{kMovingBodies, std::move(moments.shares), {}};
-  for (const PlacedBody* const placed : movers) {
-    moving.shapes.push_back({placed->still, places_of(exposures, placed->body, map,
-                                                      corner_of(placed->still), moments.times)});
+  const PlacedBodies moving = add_still_bodies(bodies, map, exposures, items);
+  if (moving.empty()) return;
+  Moments moments = moments_of(moving, map, frame, exposures);
+  MovingShapesItem item{kMovingBodies, std::move(moments.shares), {}};
+  for (const PlacedBody* const placed : moving) {
+    item.shapes.push_back({placed->still, places_of(exposures, placed->body, map,
+                                                    corner_of(placed->still), moments.times)});
   }
-  items.emplace_back(std::move(moving));
+  items.emplace_back(std::move(item));
 }
 
 }  // namespace piblocks

@@ -20,7 +20,7 @@ struct PlacedBody {
   std::variant<ExposedBlock, DiscItem> still;
 };
 
-/// Adds the bodies that stay, and an item of all that move.
+/// Adds the bodies that stay, and one item of all others.
 /// @param bodies     in the order in which they are painted
 /// @param exposures  none if the picture is that of its instant
 void add_exposed(std::span<const PlacedBody> bodies, const Layout& map, const PixelRect& frame,
