@@ -47,12 +47,12 @@ inline constexpr std::size_t kMaxBodies = 100'000;
 inline constexpr std::size_t kMaxWalls = 16;
 
 /// Everything that is wrong with a system; empty if nothing is. Keys are "body 3.mass", counted
-/// from 1, "wall 1.normal", "body" and "wall". Of discs that overlap, those are named without which
-/// no others do. It takes about n log n steps for n bodies, whatever their places and sizes are.
+/// from 1, "wall 1.normal", "body" and "wall". If discs overlap, it names some; the others do not
+/// overlap. It takes about n log n steps for n bodies, whatever their places and sizes are.
 std::vector<Problem> problems_of(const BodySystem& system);
 
-/// Whether collisions may never end: something that moves can return to two immovable things for
-/// ever, or is in a closed box.
+/// Whether collisions may never end: a body is in a closed box, or can return to two immovable
+/// objects for ever.
 bool may_never_end(const BodySystem& system);
 
 /// Which bodies are two blocks beside something immovable, and the same blocks seen from there.

@@ -25,8 +25,8 @@ std::optional<Scalar> time_to_contact(const Scalar& gap, const Scalar& closing) 
   return Scalar(gap / closing);
 }
 
-/// Of a change of relative velocity, the share of the body with mass `own`: the other's mass over
-/// the sum of both. At most one of them is infinite.
+/// The share of a change of relative velocity that the body of mass `own` gets: `other` / (`own` +
+/// `other`). At most one mass is infinite.
 template <typename Scalar>
 Scalar share_of_change(const Scalar& own, const Scalar& other) {
   if (other == kInfiniteMass<Scalar>) return Scalar(1);

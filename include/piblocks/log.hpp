@@ -57,8 +57,8 @@ class CollisionLog;
 struct Impact;  // physics/impact.hpp
 enum class CollisionKind : std::uint8_t;
 
-/// Collisions from time 0 on have the indices 1, 2, … Of two blocks beside something immovable
-/// those before time 0 are known, too, and have the indices 0, -1, … down to first_index(). Several
+/// Collisions from time 0 on have the indices 1, 2, … For two blocks beside something immovable,
+/// earlier collisions are known too, with indices 0, -1, … down to first_index(). Several
 /// collisions at one instant happen in the order of TieRank (contact.hpp).
 ///
 /// No answer depends on earlier questions. Const members are thread-safe.
@@ -114,23 +114,23 @@ class Log {
   /// nearest double to the true one. In closed form it is if the outer block is not the heavier
   /// one; else numbers are some units in the last place off.
   virtual bool is_exact(const Integer& index) const = 0;
-  /// The first collision up to this index of a body that is about to meet another one at the same
-  /// time, so that the order of ties decides what comes next; nothing if none is, among those
-  /// computed in rational numbers.
+  /// The first collision up to `last` of a body that has another one due at the same time: TieRank
+  /// then decides what comes next. Looks only at collisions in rational numbers; nothing if there
+  /// is none.
   virtual std::optional<Integer> first_tie(const Integer& last) const = 0;
-  /// Until when, up to this time, rounding cannot have changed which bodies collide, nor in which
-  /// order each of them meets the others. Nothing if it cannot at all until then.
+  /// The time up to which rounding cannot have changed which bodies collide, or the order in which
+  /// each one meets others. Nothing if that holds up to `time`.
   virtual std::optional<double> certain_until(const Rational& time) const = 0;
 
   /// As count_at(), except that collisions within the rounding of `time` and of the engine may
-  /// count as earlier or later. Of two blocks the cost does not depend on their number.
+  /// count as earlier or later. For two blocks, more collisions cost no more.
   virtual Integer count_near(const Time& time) const { return count_at(to_rational(time)); }
   /// The collisions of this kind among first … last, taken together, for sound; nothing if there
-  /// are none. What meets something immovable has met a wall.
+  /// are none. Immovable bodies count as walls.
   virtual std::optional<Impact> impact(CollisionKind kind, const Integer& first,
                                        const Integer& last) const;
 
-  /// What two blocks beside something immovable have; nullptr for all others.
+  /// The log of two blocks beside something immovable; else nullptr.
   virtual const CollisionLog* pair() const noexcept { return nullptr; }
 
  protected:

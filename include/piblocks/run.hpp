@@ -1,5 +1,5 @@
-// What only two blocks beside something immovable have: gaps, bounds, the past, the exact count.
-// In: a BlockSystem. Out: numbers; stored and computed logs look alike.
+// Only for two blocks beside something immovable: gaps, bounds, the past, the exact count. In: a
+// BlockSystem. Out: numbers; stored and computed logs look alike.
 #pragma once
 
 #include <piblocks/block_system.hpp>

@@ -205,7 +205,7 @@ void note_convention(const Script& script) {
 void note_sharp(const Script& script) {
   const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };
   if (std::ranges::none_of(scenes_of(script), is_blurred)) return;
-  say("piblocks: note: SVG, PDF and sheets have no motion blur: what moves is shown sharp, at the "
+  say("piblocks: note: SVG, PDF and sheets have no motion blur: moving bodies are sharp, at the "
       "instant\n");
 }
 

@@ -1,6 +1,5 @@
-// Files and folders that have no final name yet.
-// In: the name that they shall have. Out: one beside it, locked, which is gone unless it is
-// renamed.
+// Files and folders that have no final name yet. In: the final name. Out: a locked temporary file
+// or folder beside it, removed unless renamed.
 #pragma once
 
 #include <filesystem>

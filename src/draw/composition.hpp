@@ -37,7 +37,7 @@ struct Hit {
   MetPair pair = {};
   std::array<double, 2> contact = {};  ///< where their surfaces met, in the scene
   double age_s = 0;  ///< of video since the picture passed it, 0 <= age_s < kHitLife_s
-  /// Then, of two blocks beside a wall; if the blocks met, y1 = y2 is where, seen from the wall.
+  /// At the hit, for two blocks beside a wall. If the blocks met, the contact is at y1 = y2.
   Gaps gaps = {};
 };
 

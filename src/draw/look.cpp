@@ -150,7 +150,7 @@ Color mixed(const Color& from, const Color& to, double share) {
   return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
 }
 
-/// The colour, as little nearer to that of texts as its contrast with the background asks for.
+/// The colour, mixed with as little text colour as gives the least contrast to the background.
 Color readable(const Color& color, const Palette& palette, double least) {
   for (double share = 0; share < 1; share += 0.1) {
     const Color mix = mixed(color, palette.text, share);

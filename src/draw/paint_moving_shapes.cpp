@@ -25,8 +25,8 @@ Rgb samples_of(const Color& color) {
   return {double(color.red), double(color.green), double(color.blue)};
 }
 
-/// How much of a pixel the half-plane covers whose edge is so far inside of the pixel's centre, and
-/// at right angles to a direction.
+/// The part of a pixel that a half-plane covers. Its edge is `inside` beyond the pixel's centre;
+/// its unit normal is (x, y).
 double half_plane(double inside, double x, double y) {
   const double most = std::max(std::fabs(x), std::fabs(y));
   const double least = std::min(std::fabs(x), std::fabs(y));

@@ -21,8 +21,8 @@ struct Impact {
   double position = 0;
 };
 
-/// By which the impulses of a run are divided to be heard: of bodies, what a body of mean mass gets
-/// from a wall that it meets at the mean speed; of two blocks 1. Its cost grows with the number of
+/// For sound, a run's impulses are divided by this: 1 for two blocks; for other bodies, the impulse
+/// that a wall gives a body of mean mass at the mean speed. Its cost grows with the number of
 /// bodies.
 double impulse_unit(const Log& log);
 

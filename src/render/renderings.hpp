@@ -21,7 +21,7 @@
 namespace piblocks {
 
 /// The film of a job, which is made once: its runs are simulated then.
-/// @throws UsageError if parts are asked for of what has none; as Film()
+/// @throws UsageError if the job asks for a part and has none; as Film()
 Film film_of(const RenderJob& job);
 
 /// render() of a job that is neither a bundle nor a page. @param film  of the job

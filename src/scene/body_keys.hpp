@@ -38,8 +38,8 @@ class BodyDraft {
   bool empty() const noexcept { return bodies_.bodies.empty(); }
   Bodies bodies() const;
   bool has_slanted_walls() const noexcept { return !slanted_.empty(); }
-  /// Where the table begins that sets what problems_of() calls so, as "body 3.mass"; empty if none
-  /// does.
+  /// File and line of the table for this key of problems_of(), as "body 3.mass"; empty if there is
+  /// none.
   std::string origin_of(const std::string& key) const;
 
  private:

@@ -1,5 +1,4 @@
-// The run of a scene.
-// In: a scene without problems. Out: its log; what has to be said of it.
+// The run of a scene. In: a scene without problems. Out: its log; notes and errors about it.
 #pragma once
 
 #include <piblocks/run.hpp>

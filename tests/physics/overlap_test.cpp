@@ -42,7 +42,7 @@ std::set<std::pair<std::size_t, std::size_t>> named_pairs(const BodySystem& syst
   return pairs;
 }
 
-/// All that is named is true, and without the discs that are named first no others overlap.
+/// Every named pair overlaps. Without the first disc of each, no discs overlap.
 void expect_right(const BodySystem& system) {
   const auto all = overlapping_pairs(system.bodies);
   const auto named = named_pairs(system);

@@ -396,7 +396,7 @@ TEST(BodyShutter, ManyDiscsThatPassOnePlaceAddUp) {
   EXPECT_EQ(canvas.view().row(50)[4 * 95], 0);
 }
 
-/// However fast, however many: so many edges of so many moments.
+/// Edge pixels times moments have a limit, at any speed and number.
 TEST(BodyShutter, NoFrameCostsMoreThanItsLimit) {
   for (const int count : {1, 1500}) {
     std::vector<Body> bodies;
