@@ -37,9 +37,6 @@ struct BodySystem {
   int dimensions = 1;  ///< 1: blocks on the x axis; 2: discs
   std::vector<Body> bodies = {};
   std::vector<Wall> walls = {};
-  /// As in BlockSystem. Below 1 only of two blocks beside something immovable.
-  Rational restitution = 1;
-  Rational wall_restitution = 1;  ///< of collisions with what is immovable
 };
 
 /// Most bodies of a system. A scene file has room for fewer: kMaxSceneFile_bytes in script.hpp.

@@ -29,11 +29,13 @@ std::optional<Scalar> time_to_contact(const Scalar& gap, const Scalar& closing) 
 /// `other`). At most one mass is infinite.
 template <typename Scalar>
 Scalar share_of_change(const Scalar& own, const Scalar& other) {
-  if (other == kInfiniteMass<Scalar>) return Scalar(1);
   const Scalar sum = own + other;
-  // If the sum overflows, this quotient is as good. It rounds once more.
-  if (own < sum && sum == kInfiniteMass<Scalar>) {
-    return Scalar(Scalar(1) / (Scalar(1) + own / other));
+  if constexpr (std::numeric_limits<Scalar>::has_infinity) {
+    if (other == kInfiniteMass<Scalar>) return Scalar(1);
+    // If the sum overflows, this quotient is as good. It rounds once more.
+    if (own < sum && sum == kInfiniteMass<Scalar>) {
+      return Scalar(Scalar(1) / (Scalar(1) + own / other));
+    }
   }
   return Scalar(other / sum);
 }

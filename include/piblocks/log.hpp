@@ -61,7 +61,8 @@ enum class CollisionKind : std::uint8_t;
 /// earlier collisions are known too, with indices 0, -1, … down to first_index(). Several
 /// collisions at one instant happen in the order of TieRank (contact.hpp).
 ///
-/// No answer depends on earlier questions. Const members are thread-safe.
+/// No answer depends on earlier questions. Const members are thread-safe. Those that have to step
+/// more than kMaxBodyCollisions, or a number beyond the range of a double, throw SimulationError.
 class Log {
  public:
   virtual ~Log() = default;
@@ -76,13 +77,17 @@ class Log {
   virtual bool has(const Integer& index) const = 0;
   /// Index of the last collision of the run, and the number of those from time 0 on. Computes all.
   /// Of a run that may never end it is the last one until the horizon.
-  /// @throws UsageError if the run may never end and there is no horizon; SimulationError if there
-  ///         are more than kMaxBodyCollisions.
+  /// @throws UsageError if the run may never end and there is no horizon.
   virtual Integer last() const = 0;
   /// Whether collisions may go on for ever: may_never_end(system()).
   virtual bool never_ends() const { return false; }
+  /// The time until which collisions count where they may never end; nothing where they do. See
+  /// make_log().
+  virtual std::optional<Rational> horizon() const { return std::nullopt; }
   /// Whether last() has an answer: the run ends, or there is a horizon.
-  virtual bool has_last() const { return true; }
+  bool has_last() const { return !never_ends() || horizon(); }
+  /// Whether the collision is one of first_index() … last(). Asks for no later ones.
+  bool is_listed(const Integer& index) const;
   /// The collision with this index, if has(index).
   /// @throws SimulationError if its time or state is beyond the range of a double.
   virtual BodyCollision collision(const Integer& index) const = 0;
@@ -119,8 +124,9 @@ class Log {
   /// is none.
   virtual std::optional<Integer> first_tie(const Integer& last) const = 0;
   /// The time up to which rounding cannot have changed which bodies collide, or the order in which
-  /// each one meets others. Nothing if that holds up to `time`.
-  virtual std::optional<double> certain_until(const Rational& time) const = 0;
+  /// each one meets others. Nothing if that holds up to `time`; without a time, for the whole run,
+  /// until some 10^9 times as long as it takes.
+  virtual std::optional<double> certain_until(const std::optional<Rational>& time) const = 0;
 
   /// As count_at(), except that collisions within the rounding of `time` and of the engine may
   /// count as earlier or later. For two blocks, more collisions cost no more.
@@ -142,7 +148,7 @@ class Log {
 
 /// Two blocks and one wall or immovable block beside them are in closed form. All others are
 /// stepped and stored. Nothing is stepped yet.
-/// @param horizon  the time until which collisions count where they may never end
+/// @param horizon  the time until which collisions count where they may never end, >= 0
 /// @throws SceneError if problems_of(system) is not empty; UsageError if the horizon is negative.
 std::unique_ptr<Log> make_log(const BodySystem& system,
                               const std::optional<Rational>& horizon = {});

@@ -133,7 +133,9 @@ class CollisionLog : public Log {
                                             std::size_t most) const override;
   bool is_exact(const Integer& /*index*/) const override { return false; }
   std::optional<Integer> first_tie(const Integer& last) const override;
-  std::optional<double> certain_until(const Rational& /*time*/) const override { return {}; }
+  std::optional<double> certain_until(const std::optional<Rational>& /*time*/) const override {
+    return std::nullopt;
+  }
   std::optional<Impact> impact(CollisionKind kind, const Integer& first,
                                const Integer& last) const override;
   const CollisionLog* pair() const noexcept override { return this; }

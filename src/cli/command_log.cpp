@@ -151,7 +151,7 @@ void log_bodies(const Scene& scene, const Command& options) {
   const Scene logged = scene_for_log(scene, options);
   const std::unique_ptr<Log> log = log_of(logged);
   const Rows rows = select_rows(options, *log);
-  require_certain_until(logged, *log, rows.last);
+  require_certain(logged, *log, rows.until);
   const StopOnSignals signals;
   OutputFile file(output_of(options), format.is_binary ? Contents::bytes : Contents::text);
   file.write(format.header(log->system(), rows));
@@ -169,7 +169,7 @@ void log_bodies(const Scene& scene, const Command& options) {
     text.clear();
   }
   file.finish();
-  note_ties(*log, rows.last);
+  note_ties(logged, *log, rows.last);
 }
 
 void run_log(const Command& options, const SceneOptions& scene_options) {

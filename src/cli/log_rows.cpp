@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "cli/values.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -61,36 +62,34 @@ Integer first_since(const Log& log, const Bound& bound) {
   return log.first_since(time);
 }
 
-std::string rows_there_are(const Log& log) {
-  if (!log.has(log.first_index())) return "no collisions";
-  return fmt::format(
-      "{} {} to {}",
-      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
-      readable(log.first_index()), readable(log.last()));
-}
-
 Integer first_row(const OptionTexts& options, const Log& log, const std::optional<Bound>& from) {
   Integer since = from ? first_since(log, *from) : Integer(1);
   const auto first = options.value("--first", parse_index);
   if (!first) return since;
-  if (!log.has(*first)) {
+  if (!log.is_listed(*first)) {
     throw UsageError(
-        fmt::format("--first {}: the scene has {}", readable(*first), rows_there_are(log)));
+        fmt::format("--first {}: the scene has {}", readable(*first), listed_collisions(log, "")));
   }
   return from ? std::max(since, *first) : *first;
 }
 
-/// The index of the last row. Asks for no collision beyond it.
-Integer last_row(const OptionTexts& options, const Log& log, const std::optional<Bound>& to,
-                 const Integer& first) {
+/// Sets where the rows end. Asks for no collision beyond them.
+/// @param until  the rows end before any later collision; nothing if the run ends by itself
+void end_rows(const OptionTexts& options, const Log& log, const std::optional<Rational>& until,
+              Rows& rows) {
   const auto parse_limit = [](const std::string& text) { return parse_whole_number(text, 1); };
-  const auto limit = options.value("--limit", parse_limit);
-  if (!limit) return to ? log.count_at(to->time) : log.last();
-  const Integer last = first + *limit - 1;
-  if (to) return std::min(last, log.count_at(to->time));
-  // The horizon of a run that may never end is near, the end of another one may be far.
-  if (log.never_ends() && log.has_last()) return std::min(last, log.last());
-  return log.has(last) ? last : log.last();
+  if (const auto limit = options.value("--limit", parse_limit)) {
+    const Integer last = rows.first + *limit - 1;
+    const bool is_there = log.has(last);
+    const Rational end = is_there ? to_rational(log.collision_time(last)) : Rational(0);
+    if (is_there && (!until || end < *until)) {
+      rows.last = last;
+      rows.until = end;
+      return;
+    }
+  }
+  rows.last = until ? log.count_at(*until) : log.last();
+  rows.until = until;
 }
 
 }  // namespace
@@ -104,7 +103,7 @@ Rows select_rows(const OptionTexts& options, const Log& log) {
   }
   Rows rows;
   rows.first = first_row(options, log, from);
-  rows.last = last_row(options, log, to, rows.first);
+  end_rows(options, log, to ? std::optional(to->time) : log.horizon(), rows);
   if (rows.count() > kMaxRows && !options.is_given("--limit")) {
     throw UsageError(fmt::format(
         "log: {} rows are more than {}; narrow them with --from, --to or --first, or allow them "

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,8 @@ namespace piblocks::cli {
 struct Rows {
   Integer first;
   Integer last;
+  /// They are all collisions from `first` on until this time; nothing for the whole run.
+  std::optional<Rational> until = {};
 
   Integer count() const { return last < first ? Integer(0) : Integer(last - first + 1); }
 };

@@ -39,7 +39,7 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
     out.line(state_text(log.system(), time, state));
   }
   out.finish();
-  note_ties(log, last);
+  note_ties(scene, log, last);
 }
 
 /// All collisions, or those until --to; of two blocks and a wall all are counted without a log.
@@ -51,13 +51,14 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
   Integer count;
   if (to || scene.bodies) {
     log = log_of(scene);
-    count = to ? log->count_at(time_of(*to, *log)) : log->last();
-    require_certain_until(scene, *log, count);
+    const auto until = to ? std::optional(time_of(*to, *log)) : log->horizon();
+    count = until ? log->count_at(*until) : log->last();
+    require_certain(scene, *log, until);
   }
   if (!log || count == infinite_count(*log)) count = count_collisions(scene.system);
   out.line(count.get_str(scene.show.base));
   out.finish();
-  if (log) note_ties(*log, count);
+  if (log) note_ties(scene, *log, count);
   if (log && log->never_ends() && !to) {
     say("piblocks: note: collisions may go on for ever; these are the ones until time.to = {}\n",
         exact_text(scene.time.to));

@@ -48,10 +48,10 @@ double impulse_of(const BodySystem& system, const BodyCollision& collision) {
   const auto& v = collision.second_after.velocity;
   const double speed =
       std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
-  const std::optional<double> m = mass(collision.first);
-  const std::optional<double> n = mass(collision.second);
-  if (!m) return 2 * *n * speed;
-  return 2 * (n ? *m / (*m + *n) * *n : *m) * speed;
+  std::optional<double> own = mass(collision.first);
+  std::optional<double> other = mass(collision.second);
+  if (!own) std::swap(own, other);
+  return *own * velocity_change(speed, share_of_change(own, other));
 }
 
 bool is_at_wall(const BodySystem& system, const BodyCollision& collision) {

@@ -45,6 +45,11 @@ std::vector<double> sample_times(std::size_t count) {
   return times;
 }
 
+bool Log::is_listed(const Integer& index) const {
+  if (horizon()) return index >= first_index() && index <= last();
+  return has(index);
+}
+
 Integer Log::first_since(const Rational& time) const {
   Integer last = count_at(time);
   while (last >= first_index() && collision_time(last) == to_time(time)) --last;
@@ -52,6 +57,12 @@ Integer Log::first_since(const Rational& time) const {
 }
 
 std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon) {
+  require_valid(problems_of(system));
+  return make_log_of_valid(system, horizon);
+}
+
+std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
+                                       const std::optional<Rational>& horizon) {
   if (const std::optional<TwoBlocks> blocks = two_blocks_of(system)) {
     return make_collision_log(*blocks);
   }

@@ -17,6 +17,10 @@ namespace piblocks {
 std::unique_ptr<Log> make_stored_body_log(const BodySystem& system,
                                           const std::optional<Rational>& horizon);
 
+/// As make_log(). @param system  has no problems
+std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
+                                       const std::optional<Rational>& horizon);
+
 /// All bodies at time 0.
 std::vector<BodyMotion> motions_at_start(const BodySystem& system);
 /// A body at time 0, or a wall. @param id  as in BodyCollision

@@ -89,14 +89,14 @@ struct BodyExposure {
   std::optional<ClosedExposure> closed = {};
 };
 
-/// The interval between two times, in either order, none of them negative. Every collision is
-/// listed, but for those that the closed form sums up. Valid after its log is gone.
+/// The interval between two times, in either order, none of them negative unless the past is known.
+/// Every collision is listed, but for those that the closed form sums up. Valid after its log is gone.
 /// @throws as Log::state_at().
 BodyExposure expose(const Log& log, const Rational& begin, const Rational& end);
 
 /// The interval between two times, in either order, and also before time 0. Valid after its log is
 /// gone.
-/// @throws SimulationError as CollisionLog::collision().
+/// @throws SimulationError as CollisionLog::blocks_collision().
 Exposure expose(const CollisionLog& log, const Rational& begin, const Rational& end);
 
 /// Collects pieces from instant to instant.

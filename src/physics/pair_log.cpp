@@ -19,9 +19,7 @@ TwoBlocks two_blocks_from(const BodySystem& system, const LineElement& wall,
   TwoBlocks found{{}, system, blue.id, red.id, wall.id, side};
   found.blocks = {.wall_face = side * wall.position + wall.half_width,
                   .blue = block_of(blue, side),
-                  .red = block_of(red, side),
-                  .blocks_restitution = system.restitution,
-                  .wall_restitution = system.wall_restitution};
+                  .red = block_of(red, side)};
   return found;
 }
 
@@ -47,8 +45,6 @@ TwoBlocks two_blocks_of(const BlockSystem& blocks) {
         {block->mass, {block->position}, {block->velocity}, block->width});
   }
   result.system.walls = {{"wall", {blocks.wall_face}, {1}}};
-  result.system.restitution = blocks.blocks_restitution;
-  result.system.wall_restitution = blocks.wall_restitution;
   return result;
 }
 

@@ -2,6 +2,8 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <exception>
 #include <mutex>
 #include <shared_mutex>
 #include <utility>
@@ -32,6 +34,22 @@ Rational short_time(const Rational& time, const std::optional<Rational>& next) {
   }
 }
 
+/// The fastest body crosses everything in this time, as all is at time 0.
+double crossing_time(const BodySystem& system) {
+  double size = 0;
+  double speed = 0;
+  for (const Body& body : system.bodies) {
+    for (std::size_t axis = 0; axis < body.position.size(); ++axis) {
+      size = std::max(size, 2 * std::abs(to_double(body.position[axis])) + to_double(body.size));
+      speed = std::max(speed, std::abs(to_double(body.velocity[axis])));
+    }
+  }
+  for (const Wall& wall : system.walls) {
+    for (const Rational& x : wall.point) size = std::max(size, 2 * std::abs(to_double(x)));
+  }
+  return size / speed;
+}
+
 /// Steps are computed when they are first asked for, and stay.
 class StoredBodyLog final : public Log {
  public:
@@ -39,8 +57,8 @@ class StoredBodyLog final : public Log {
       : Log(system),
         stepper_(system.dimensions == 1 ? make_line_stepper(system) : make_disc_stepper(system)),
         start_(motions_at_start(system)),
-        horizon_(std::move(horizon)),
         never_ends_(may_never_end(system)),
+        horizon_(never_ends_ ? std::move(horizon) : std::nullopt),
         of_body_(system.bodies.size()) {}
 
   bool has(const Integer& index) const override {
@@ -61,7 +79,7 @@ class StoredBodyLog final : public Log {
   }
 
   bool never_ends() const override { return never_ends_; }
-  bool has_last() const override { return !never_ends_ || horizon_; }
+  std::optional<Rational> horizon() const override { return horizon_; }
 
   BodyCollision collision(const Integer& index) const override {
     compute_up_to(index);
@@ -92,10 +110,10 @@ class StoredBodyLog final : public Log {
   }
 
   Rational time_after(const Integer& index) const override {
-    compute_until(to_rational(collision_time(index)));
+    const Rational time = exact_time(index);
+    compute_until(time);
     const std::shared_lock lock(mutex_);
     std::size_t last = index.get_ui() - 1;
-    const Rational time = time_of(last);
     while (last + 1 < steps_.size() && time_of(last + 1) <= time) ++last;
     require_last(index, Integer(last + 1));
     const bool has_next = last + 1 < steps_.size();
@@ -127,11 +145,11 @@ class StoredBodyLog final : public Log {
     const std::shared_lock lock(mutex_);
     return first_tie_ && *first_tie_ <= last ? first_tie_ : std::nullopt;
   }
-  std::optional<double> certain_until(const Rational& time) const override {
-    compute_until(time);
+  std::optional<double> certain_until(const std::optional<Rational>& time) const override {
+    compute([&] { return time ? is_computed_until(*time) : is_complete_; });
     const std::shared_lock lock(mutex_);
-    const double until = stepper_->certainty().until;
-    return until <= to_double(time) ? std::optional(until) : std::nullopt;
+    const double end = time ? to_double(*time) : end_of_run();
+    return certain_until_ && !(*certain_until_ > end) ? certain_until_ : std::nullopt;
   }
 
  private:
@@ -201,7 +219,19 @@ class StoredBodyLog final : public Log {
       if (is_computed()) return;
     }
     const std::unique_lock lock(mutex_);
-    while (!is_computed()) add_step();
+    if (failure_) std::rethrow_exception(failure_);
+    try {
+      while (!is_computed()) add_step();
+    } catch (...) {
+      failure_ = std::current_exception();  // the engine cannot go on from here
+      throw;
+    }
+  }
+
+  Rational exact_time(const Integer& index) const {
+    compute_up_to(index);
+    const std::shared_lock lock(mutex_);
+    return time_of(index.get_ui() - 1);
   }
 
   void compute_up_to(const Integer& index) const {
@@ -219,6 +249,7 @@ class StoredBodyLog final : public Log {
 
   void add_step() const {
     const std::optional<BodyStep> step = stepper_->step();
+    note_certainty();
     is_complete_ = !step;
     if (is_complete_) return;
     if (steps_.size() == static_cast<std::size_t>(kMaxBodyCollisions)) {
@@ -231,13 +262,25 @@ class StoredBodyLog final : public Log {
     if (step->exact_time) exact_times_.push_back(*step->exact_time);
     if (step->is_tied && !first_tie_) first_tie_ = Integer(number + 1);
     for (const std::uint32_t body : {step->first, step->second}) {
-      if (body >= of_body_.size()) continue;
-      Numbers& own = of_body_[body];
-      own.push_back(number);
+      if (body < of_body_.size()) of_body_[body].push_back(number);
     }
     const bool is_wall = step->second >= of_body_.size();
     steps_.push_back({step->time, step->first, step->second, step->first_after,
                       is_wall ? motion_at_start(system(), step->second) : step->second_after});
+  }
+
+  /// By then a run of which all is computed has ended, if rounding has not changed it: bodies that
+  /// would still meet need far less time, those that drift by rounding errors far more.
+  double end_of_run() const {
+    const double last = steps_.empty() ? 0 : steps_.back().time.hi;
+    return 0x1p30 * (last + crossing_time(system()));
+  }
+
+  /// All steps so far are certain if the new one is the first that is not.
+  void note_certainty() const {
+    const double until = stepper_->certainty().until;
+    if (certain_until_ || until == Certainty::kForEver) return;
+    certain_until_ = steps_.empty() ? until : std::max(until, steps_.back().time.hi);
   }
 
   /// The steps up to this time, which have been computed.
@@ -262,13 +305,15 @@ class StoredBodyLog final : public Log {
   mutable std::shared_mutex mutex_;
   std::unique_ptr<BodyStepper> stepper_;
   std::vector<BodyMotion> start_;
-  std::optional<Rational> horizon_;
   bool never_ends_;
+  std::optional<Rational> horizon_;
   mutable bool is_complete_ = false;
   mutable std::vector<StoredStep> steps_;
   mutable std::vector<Rational> exact_times_;  // of the first steps
   mutable std::vector<Numbers> of_body_;       // numbers of its steps
   mutable std::optional<Integer> first_tie_;
+  mutable std::optional<double> certain_until_;
+  mutable std::exception_ptr failure_;  // of the engine
 };
 
 }  // namespace

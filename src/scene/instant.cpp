@@ -11,6 +11,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/text.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -68,16 +69,8 @@ std::optional<Integer> anchoring_collision(const Instant& instant, const Log& lo
     const Integer last = log.last();
     return last > 0 ? std::optional(last) : std::nullopt;
   }
-  if (instant.anchor == Anchor::collision && log.has(instant.index)) return instant.index;
+  if (instant.anchor == Anchor::collision && log.is_listed(instant.index)) return instant.index;
   return std::nullopt;
-}
-
-std::string named_collisions(const Log& log) {
-  if (log.last() < log.first_index()) return "no collisions";
-  return fmt::format(
-      "{} #{} to #{}",
-      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
-      log.first_index().get_str(), log.last().get_str());
 }
 
 [[noreturn]] void fail_missing(const Instant& instant, const Log& log) {
@@ -90,7 +83,7 @@ std::string named_collisions(const Log& log) {
     throw UsageError("'last': no collision happens from time 0 on; give a time");
   }
   throw UsageError(fmt::format("collision #{}: the scene has {}", instant.index.get_str(),
-                               named_collisions(log)));
+                               listed_collisions(log, "#")));
 }
 
 }  // namespace

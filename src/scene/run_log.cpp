@@ -17,7 +17,7 @@ std::unique_ptr<Log> log_of(const Scene& scene) {
       is_time ? std::optional(std::max(scene.time.to.offset, Rational(0))) : std::nullopt);
 }
 
-void require_certain(const Scene& scene, const Log& log, const Rational& time) {
+void require_certain(const Scene& scene, const Log& log, const std::optional<Rational>& time) {
   if (scene.time.allow_uncertain) return;
   const std::optional<double> until = log.certain_until(time);
   if (!until) return;
@@ -27,17 +27,23 @@ void require_certain(const Scene& scene, const Log& log, const Rational& time) {
       *until, *until * 0.999));
 }
 
-void require_certain_until(const Scene& scene, const Log& log, const Integer& last) {
-  if (last > 0) require_certain(scene, log, to_rational(log.collision_time(last)));
-}
-
-std::optional<std::string> tie_note(const Log& log, const Integer& last) {
-  const std::optional<Integer> tie = log.pair() ? std::nullopt : log.first_tie(last);
+std::optional<std::string> tie_note(const Scene& scene, const Log& log, const Integer& last) {
+  const std::optional<Integer> tie = scene.bodies ? log.first_tie(last) : std::nullopt;
   if (!tie) return std::nullopt;
   return fmt::format(
       "at t = {} a body has several collisions at once: those of movable bodies come first, in the "
       "order of the file; another order may end otherwise",
       log.collision_time(*tie).hi);
+}
+
+std::string listed_collisions(const Log& log, const char* mark) {
+  const std::string first = mark + readable(log.first_index());
+  if (!log.has(log.first_index())) return "no collisions";
+  if (!log.has_last()) return fmt::format("collisions from {} on", first);
+  return fmt::format(
+      "{} {} to {}{}",
+      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions", first,
+      mark, readable(log.last()));
 }
 
 void require_blocks(const Scene& scene, const char* what) {

@@ -15,15 +15,17 @@ namespace piblocks {
 /// @throws as make_log()
 std::unique_ptr<Log> log_of(const Scene& scene);
 
-/// @throws UsageError if bodies are not certain at this time, unless the scene allows that.
-void require_certain(const Scene& scene, const Log& log, const Rational& time);
-
-/// The same of all collisions up to this one.
-void require_certain_until(const Scene& scene, const Log& log, const Integer& last);
+/// @param time  nothing for the whole run
+/// @throws UsageError if bodies are not certain until this time, unless the scene allows that.
+void require_certain(const Scene& scene, const Log& log, const std::optional<Rational>& time);
 
 /// What to tell the user if the order of ties decides what happens up to this collision; nothing of
-/// two blocks and a wall.
-std::optional<std::string> tie_note(const Log& log, const Integer& last);
+/// a scene with two blocks and a wall, which has a convention.
+std::optional<std::string> tie_note(const Scene& scene, const Log& log, const Integer& last);
+
+/// Which collisions the log lists: "no collisions", "collisions #1 to #31".
+/// @param mark  before each number
+std::string listed_collisions(const Log& log, const char* mark);
 
 /// @param what  in the message: an option
 /// @throws UsageError if the scene has bodies: only two blocks and a wall can be shown that way.

@@ -108,7 +108,7 @@ std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
   std::vector<std::string> notes = cli::convention_notes(scene);
   const Log& log = run.log();
   const Integer last = has_span(scene, log) ? log.count_at(span_of(scene, log).to) : Integer(0);
-  if (auto note = tie_note(log, last)) notes.push_back(*std::move(note));
+  if (auto note = tie_note(scene, log, last)) notes.push_back(*std::move(note));
   return notes;
 }
 

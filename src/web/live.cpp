@@ -130,10 +130,7 @@ std::optional<LiveScript::Place> LiveScript::collision_beside(const Place& place
   Integer index = step > 0 ? count + 1 : is_at_collision ? count - 1 : count;
   for (;;) {
     if (index < log.first_index()) return place_of_frame(0);
-    // Collisions that may go on for ever are those until the horizon.
-    const bool is_past_end =
-        log.never_ends() && log.has_last() ? index > log.last() : !log.has(index);
-    if (is_past_end) return std::nullopt;
+    if (!log.is_listed(index)) return std::nullopt;
     try {
       return place_of(Instant::collision(index));
     } catch (const TiedCollision& tied) {

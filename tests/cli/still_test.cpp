@@ -65,7 +65,7 @@ TEST_F(StillTest, VectorFilesAreSharpAndSaySo) {
       EXPECT_EQ(exposed, sharp) << name;
       EXPECT_EQ(silence, "");
       EXPECT_EQ(note,
-                "piblocks: note: SVG, PDF and sheets have no motion blur: what moves is shown "
+                "piblocks: note: SVG, PDF and sheets have no motion blur: moving bodies are "
                 "sharp, at the instant\n");
     }
   }

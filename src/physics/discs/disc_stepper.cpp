@@ -25,6 +25,14 @@ struct Plan {
   std::uint32_t partner = kNobody;  ///< a disc, or the number of discs + a wall
   std::uint32_t meetings = 0;       ///< of the partner when this was planned
   bool is_doubt = false;            ///< not a meeting, but from then on one cannot be ruled out
+  double possible = kNever;         ///< while all is certain: they truly do not meet before
+};
+
+/// Another partner that the disc may truly meet before the planned one.
+struct Rival {
+  double possible = kNever;
+  std::uint32_t partner = kNobody;
+  std::uint32_t meetings = 0;  ///< of this partner when it was looked at
 };
 
 /// Each disc has one plan, its soonest. If the partner meets another disc first, the plan stays in
@@ -39,6 +47,7 @@ class Stepper final : public DiscStepper {
         number_(static_cast<std::uint32_t>(discs_.size())),
         cells_(discs_, search),
         plans_(number_),
+        rivals_(number_),
         queue_(number_) {
     for (std::uint32_t disc = 0; disc < number_; ++disc) raise_top_speed(disc);
     plan_all();
@@ -67,8 +76,12 @@ class Stepper final : public DiscStepper {
   void plan_end_of_margin(std::uint32_t disc);
   bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
   bool propose(std::uint32_t disc, const Plan& proposal);
+  bool note_rival(std::uint32_t disc, const Plan& loser);
+  bool has_rival(std::uint32_t disc) const { return rivals_[disc].possible < plans_[disc].time; }
   std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
-  bool is_stale(const Plan& plan) const;
+  template <typename Planned>
+  bool is_stale(const Planned& planned) const;
+  void doubt_graze(std::uint32_t disc);
   void enqueue(std::uint32_t disc);
   void cross(std::uint32_t disc);
 
@@ -81,6 +94,8 @@ class Stepper final : public DiscStepper {
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
   double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
+  std::optional<MeetingError> meeting_error(std::uint32_t disc, std::uint32_t partner,
+                                            double time) const;
   std::optional<MeetingError> certify(std::uint32_t disc, std::uint32_t partner, double time);
   void raise_top_speed(std::uint32_t disc);
 
@@ -89,6 +104,7 @@ class Stepper final : public DiscStepper {
   std::uint32_t number_;
   Cells cells_;
   std::vector<Plan> plans_;
+  std::vector<Rival> rivals_;  // of each disc, the one that may be first
   EventTree queue_;
   double until_ = kNever;
   double top_speed_ = 0;  ///< while all is certain: of all discs so far, at least
@@ -99,6 +115,7 @@ class Stepper final : public DiscStepper {
 
 void Stepper::plan_all() {
   for (Plan& plan : plans_) plan = Plan{};
+  for (Rival& rival : rivals_) rival = Rival{};
   for (std::uint32_t disc = 0; disc < number_; ++disc) {
     if (system_.is_movable(disc)) plan(disc);
   }
@@ -106,6 +123,7 @@ void Stepper::plan_all() {
 
 void Stepper::plan(std::uint32_t disc) {
   plans_[disc] = Plan{};
+  rivals_[disc] = Rival{};
   plans_[disc].crossing = cells_.crossing_time(disc);
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
   cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
@@ -123,9 +141,9 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
       is_disc(partner) ? meeting_time(own, discs_[partner]) : meeting_time(own, wall_of(partner));
   if (is_certain()) {
     const double start = is_disc(partner) ? std::max(own.time, discs_[partner].time) : own.time;
-    const double possible = earliest(disc, partner);
-    proposal.is_doubt = proposal.time == kNever || possible < start;
-    if (proposal.is_doubt) proposal.time = possible;
+    proposal.possible = earliest(disc, partner);
+    proposal.is_doubt = proposal.time == kNever || proposal.possible < start;
+    if (proposal.is_doubt) proposal.time = proposal.possible;
   }
   if (proposal.time == kNever) return;
   if (!is_disc(partner)) {
@@ -134,7 +152,8 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
   }
   proposal.meetings = discs_[partner].meetings;
   propose(disc, proposal);
-  if (proposal.time > plans_[partner].time || !system_.is_movable(partner)) return;
+  const double first = std::min(proposal.time, proposal.possible);
+  if (first > plans_[partner].time || !system_.is_movable(partner)) return;
   proposal.partner = disc;
   proposal.meetings = own.meetings;
   if (propose(partner, proposal)) enqueue(partner);
@@ -158,15 +177,27 @@ bool Stepper::have_just_met(std::uint32_t disc, std::uint32_t partner) const {
   return !is_disc(partner) || discs_[partner].last == disc || !system_.is_movable(partner);
 }
 
-/// Whether the proposal is sooner than the disc's plan and has become its plan.
+/// Makes the proposal the disc's plan if it is sooner. @return whether the disc's next event
+/// changes
 bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
   Plan& plan = plans_[disc];
-  if (proposal.time > plan.time) return false;
-  if (proposal.time == plan.time && rank_of(disc, proposal) >= rank_of(disc, plan)) return false;
-  const double crossing = plan.crossing;
+  const bool is_sooner =
+      proposal.time < plan.time ||
+      (proposal.time == plan.time && rank_of(disc, proposal) < rank_of(disc, plan));
+  if (!is_sooner) return note_rival(disc, proposal);
+  const Plan loser = plan;
   plan = proposal;
-  plan.crossing = crossing;
+  plan.crossing = loser.crossing;
+  note_rival(disc, loser);
   return true;
+}
+
+/// @return whether it becomes the rival of the disc's plan, and may be before it
+bool Stepper::note_rival(std::uint32_t disc, const Plan& loser) {
+  Rival& rival = rivals_[disc];
+  if (loser.possible >= rival.possible || loser.partner == plans_[disc].partner) return false;
+  rival = {loser.possible, loser.partner, loser.meetings};
+  return has_rival(disc);
 }
 
 /// The order of simultaneous events: doubts, then pairs as TieRank says, in one number.
@@ -178,14 +209,26 @@ std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
   return group | (std::uint64_t{rank.first} << 32) | rank.second;
 }
 
-bool Stepper::is_stale(const Plan& plan) const {
-  return is_disc(plan.partner) && discs_[plan.partner].meetings != plan.meetings;
+template <typename Planned>
+bool Stepper::is_stale(const Planned& planned) const {
+  return is_disc(planned.partner) && discs_[planned.partner].meetings != planned.meetings;
+}
+
+/// A meeting that may truly be none is in doubt from when on it is possible.
+void Stepper::doubt_graze(std::uint32_t disc) {
+  Plan& plan = plans_[disc];
+  if (!is_certain() || plan.is_doubt || plan.time == kNever || is_stale(plan)) return;
+  if (meeting_error(disc, plan.partner, plan.time)) return;
+  plan.is_doubt = true;
+  plan.time = plan.possible;
 }
 
 void Stepper::enqueue(std::uint32_t disc) {
+  doubt_graze(disc);
   const Plan& plan = plans_[disc];
-  queue_.set(disc, plan.crossing <= plan.time ? EventKey{plan.crossing, 0}
-                                              : EventKey{plan.time, rank_of(disc, plan)});
+  const EventKey next = has_rival(disc) ? EventKey{rivals_[disc].possible, 0}
+                                        : EventKey{plan.time, rank_of(disc, plan)};
+  queue_.set(disc, plan.crossing <= next.time ? EventKey{plan.crossing, 0} : next);
 }
 
 void Stepper::cross(std::uint32_t disc) {
@@ -202,12 +245,13 @@ std::optional<BodyStep> Stepper::step() {
     const std::uint32_t disc = queue_.first();
     if (queue_.first_time() == kNever) return std::nullopt;
     const Plan& next = plans_[disc];
-    if (next.crossing <= next.time) {
+    const double time = queue_.first_time();
+    if (next.crossing <= time) {
       cross(disc);
-    } else if (is_stale(next)) {
+    } else if (is_stale(next) || (has_rival(disc) && is_stale(rivals_[disc]))) {
       plan(disc);
-    } else if (next.is_doubt) {
-      if (is_certain()) until_ = std::max(next.time, 0.0);
+    } else if (next.is_doubt || has_rival(disc)) {
+      if (is_certain()) until_ = std::max(time, 0.0);
       plan(disc);
     } else {
       return meet(disc, next.partner, next.time);
@@ -322,16 +366,24 @@ double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
   return soonest;
 }
 
-/// Ends certainty unless this meeting truly is the next one of both. @return nothing then
-std::optional<MeetingError> Stepper::certify(std::uint32_t disc, std::uint32_t partner,
-                                             double time) {
+/// Nothing if rounding leaves in doubt whether the two meet, or when.
+std::optional<MeetingError> Stepper::meeting_error(std::uint32_t disc, std::uint32_t partner,
+                                                   double time) const {
   const std::vector<Bound>& bounds = system_.bounds;
-  const std::optional<MeetingError> meeting =
+  std::optional<MeetingError> meeting =
       is_disc(partner)
           ? error_of_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner], time)
           : error_of_meeting(discs_[disc], bounds[disc], wall_of(partner), time);
+  const bool is_late = meeting && 8 * top_speed_ * meeting->time_error > cells_.margin() / 4;
+  return is_late ? std::nullopt : meeting;
+}
+
+/// Ends certainty unless this meeting truly is the next one of both. @return nothing then
+std::optional<MeetingError> Stepper::certify(std::uint32_t disc, std::uint32_t partner,
+                                             double time) {
+  const std::optional<MeetingError> meeting = meeting_error(disc, partner, time);
   double doubt = kNever;
-  if (!meeting || 8 * top_speed_ * meeting->time_error > cells_.margin() / 4) {
+  if (!meeting) {
     doubt = std::min(earliest(disc, partner), time);
   } else {
     double other = kNever;

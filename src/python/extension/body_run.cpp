@@ -26,7 +26,7 @@ using Options = std::map<std::string, std::string>;
 /// The log of a scene with bodies, and the scene.
 class BoundBodyRun {
  public:
-  /// @param for_states  each instant is checked when it is asked for; else the whole log is
+  /// @param for_states  else '--to' sets the horizon; rows are checked when they are selected
   BoundBodyRun(const BoundScript& script, const Options& texts, bool for_states) {
     const WithoutGil released;
     const BoundOptions options(texts);
@@ -52,7 +52,7 @@ py::tuple select(const BoundBodyRun& run, const Options& options) {
   {
     const WithoutGil released;
     rows = cli::select_rows(BoundOptions(options), run.log());
-    require_certain_until(run.scene(), run.log(), rows.last);
+    require_certain(run.scene(), run.log(), rows.until);
   }
   return py::make_tuple(hexadecimal(rows.first), hexadecimal(rows.count()));
 }
@@ -127,7 +127,7 @@ void bind_body_run(py::module_& module) {
   py::class_<BoundBodyRun, std::shared_ptr<BoundBodyRun>>(module, "BodyRun",
                                                           "The log of a scene with bodies.")
       .def(py::init<const BoundScript&, const Options&, bool>(), py::arg("script"),
-           py::arg("options"), py::arg("for_states"), "Computed up to '--to'.")
+           py::arg("options"), py::arg("for_states"), "Nothing is computed yet.")
       .def_property_readonly(
           "size", [](const BoundBodyRun& run) { return hexadecimal(run.log().last()); },
           "Collisions from time 0 on, in hexadecimal digits.")
@@ -136,7 +136,8 @@ void bind_body_run(py::module_& module) {
           [](const BoundBodyRun& run) { return hexadecimal(run.log().first_index()); },
           "The first collision, in hexadecimal digits.")
       .def_property_readonly(
-          "is_endless", [](const BoundBodyRun&) { return false; },
+          "is_endless",
+          [](const BoundBodyRun& run) { return cli::infinite_count(run.log()).has_value(); },
           "Whether the last collision stands for infinitely many.")
       .def_property_readonly(
           "shape",
@@ -148,6 +149,13 @@ void bind_body_run(py::module_& module) {
             return std::string(cli::body_row_type(run.log().system()));
           },
           "What a row of the log has.")
+      .def(
+          "has",
+          [](const BoundBodyRun& run, const std::string& index) {
+            const WithoutGil released;
+            return run.log().is_listed(Integer(index, 16));
+          },
+          py::arg("index"), "Whether the log lists the collision, in hexadecimal digits.")
       .def("select", &select, py::arg("options"), "First index and number of rows, hexadecimal.")
       .def("fill_log", &fill_log, py::arg("first"), py::arg("rows_buffer"), py::arg("rows"),
            py::arg("row_bytes"), "Fills rows as row_type describes them.")

@@ -181,6 +181,13 @@ void bind_run(py::module_& module) {
           "is_endless",
           [](const BoundRun& run) { return cli::infinite_count(run.log()).has_value(); },
           "Whether the last collision stands for infinitely many.")
+      .def(
+          "has",
+          [](const BoundRun& run, const std::string& index) {
+            const WithoutGil released;
+            return run.log().is_listed(Integer(index, 16));
+          },
+          py::arg("index"), "Whether the log lists the collision, in hexadecimal digits.")
       .def("select", &select, py::arg("options"), "First index and number of rows, hexadecimal.")
       .def("fill_log", &fill_log, py::arg("first"), py::arg("rows_buffer"), py::arg("rows"),
            py::arg("has_indices"), "Fills rows as ROW_TYPE describes them.")

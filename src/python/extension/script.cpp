@@ -74,7 +74,7 @@ std::string count_of(const BoundScript& bound) {
   if (!scene.bodies) return hexadecimal(count_collisions(scene.system));
   const std::unique_ptr<Log> log = log_of(scene);
   const Integer count = log->last();
-  require_certain_until(scene, *log, count);
+  require_certain(scene, *log, log->horizon());
   return hexadecimal(count);
 }
 

@@ -68,8 +68,8 @@ AnyRun = Union[_piblocks.Run, _piblocks.BodyRun]
 
 def _limit_until(run: AnyRun, given: dict[bytes, bytes], last: int) -> int:
     """How many rows there are up to this index."""
-    first_index, size = int(run.first_index, 16), int(run.size, 16)
-    if not first_index <= last <= size:
+    if not run.has(format(last, "x")):
+        first_index, size = int(run.first_index, 16), int(run.size, 16)
         are = "collisions"
         if run.is_endless:
             are = "infinitely many collisions, of which the log lists"
