@@ -77,7 +77,7 @@ struct IoError : Error {
 
 /// The work was stopped on request, by a signal for example.
 struct Interrupted : Error {
-  using Error::Error;
+  Interrupted() : Error("interrupted") {}
 };
 
 }  // namespace piblocks

@@ -18,6 +18,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/output_file.hpp"
+#include "core/stop.hpp"
 #include "core/text.hpp"
 #include "scene/run_log.hpp"
 
@@ -137,7 +138,7 @@ void write(CollisionStream& collisions, const LogFormat& format, OutputFile& fil
            RowProgress& progress, const std::stop_token& stop) {
   fmt::memory_buffer rows;
   for (CollisionBatch batch{}; collisions.read(batch); rows.clear()) {
-    if (stop.stop_requested()) throw Interrupted("log: interrupted");
+    check_stop(stop);
     format.append(batch, rows);
     file.write(std::string_view(rows.data(), rows.size()));
     progress.add(std::int64_t(batch.size));
@@ -164,7 +165,7 @@ void log_bodies(const Scene& scene, const Command& options) {
     ++pending;
     if (text.size() < kPiece_bytes && index != rows.last) continue;
     progress.add(std::exchange(pending, 0));
-    if (signals.token().stop_requested()) throw Interrupted("log: interrupted");
+    check_stop(signals.token());
     file.write(std::string_view(text.data(), text.size()));
     text.clear();
   }

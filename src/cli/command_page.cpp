@@ -9,6 +9,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "core/output_file.hpp"
 #include "core/overwrite_check.hpp"
+#include "core/stop.hpp"
 #include "core/text.hpp"
 #include "render/film.hpp"
 #include "scene/scene_toml.hpp"
@@ -55,7 +56,7 @@ void run_page(const Command& options, const SceneOptions& scene) {
   const StopOnSignals signals;
   OutputFile out(output_of(options));
   write_page(page, scene_toml(script), out);
-  if (signals.token().stop_requested()) throw Interrupted("page: interrupted");
+  check_stop(signals.token());
   out.finish();
   note_convention(script);
 }

@@ -1,5 +1,6 @@
 // The command line: options in, exit code out (command.hpp).
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <unistd.h>
 
@@ -38,11 +39,11 @@ int fail(const piblocks::UsageError& error) {
   return kWrongUsage;
 }
 
-int fail(const std::exception& error, int exit_code) {
-  if (!piblocks::cli::stop_was_requested()) return fail(error.what(), exit_code);
+int fail(const std::exception& error, std::string_view command) {
+  if (!piblocks::cli::stop_was_requested()) return fail(error.what(), kFailed);
   // A call that was broken off fails for a reason that nobody needs to know.
   const bool says_so = dynamic_cast<const piblocks::Interrupted*>(&error) != nullptr;
-  end_interrupted(says_so ? error.what() : "interrupted");
+  end_interrupted(says_so ? fmt::format("{}: {}", command, error.what()) : "interrupted");
 }
 
 /// GMP cannot pass an exception on: the process ends here.
@@ -90,10 +91,10 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const piblocks::cli::ExitError& exit) {
     if (piblocks::cli::stop_was_requested()) end_interrupted("interrupted");
-    return *exit.what() == '\0' ? exit.code() : fail(exit, exit.code());
+    return *exit.what() == '\0' ? exit.code() : fail(exit.what(), exit.code());
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {
-    return fail(error, kFailed);
+    return fail(error, argc > 1 ? argv[1] : "");
   }
 }

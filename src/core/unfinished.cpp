@@ -195,7 +195,7 @@ void Unfinished::remove() noexcept {
 FolderLock::FolderLock(const fs::path& folder)
     : lock_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (lock_.is_open() && ::flock(lock_.get(), LOCK_EX) != 0 && errno == EINTR) {
-    throw Interrupted("output: interrupted");
+    throw Interrupted();
   }
 }
 

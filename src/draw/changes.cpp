@@ -176,7 +176,7 @@ class Comparison {
     if (before.contacts == after.contacts) return;
     for (const ExposedBlocksItem* item : {&before, &after}) {
       if (item->contacts.empty()) continue;
-      add({item->contacts.front().behind_x, top, item->contacts.back().behind_x + 1, bottom});
+      add({item->contacts.front().right_x(), top, item->contacts.back().right_x() + 1, bottom});
     }
   }
 

@@ -49,8 +49,8 @@ class Composer {
       : scene_(scene),
         bodies_(bodies_of(scene)),
         is_article_(scene.view.theme == Theme::article && bodies_.system.dimensions == 1),
-        palette_(log.pair() != nullptr ? palette_of(scene.view.theme, scene.system)
-                                       : palette_of(scene.view.theme)),
+        palette_(scene.bodies ? palette_of(scene.view.theme)
+                              : palette_of(scene.view.theme, scene.system)),
         colors_(colors_of(bodies_, scene.view.theme, palette_)),
         sizes_(scene.view),
         context_{.scene = scene,

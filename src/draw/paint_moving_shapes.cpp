@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/stop.hpp"
 #include "draw/block_cover.hpp"
 #include "draw/extent.hpp"
 #include "draw/painter.hpp"
@@ -349,7 +350,7 @@ void Painter::paint_exposed(cairo_t& cr, const MovingShapesItem& item, const Pix
     const int height = std::min(kBand_px, moving.y_px + moving.height_px - y);
     MomentSums sums({moving.x_px, y, moving.width_px, height}, light(), pixels, movers);
     for (std::size_t moment = 0; moment < item.shares.size(); ++moment) {
-      check_stop();
+      check_stop(stop_);
       sums.next_moment(item.shares[moment]);
       for (const Mover& mover : movers) {
         std::visit([&](const auto& any) { sums.add(any, mover.places[moment]); }, mover.shape);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/stop.hpp"
 #include "draw/extent.hpp"
 
 namespace piblocks {
@@ -96,7 +97,7 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
     cairo_paint(&cr);
   }
   for (const DrawItem& item : list.items) {
-    check_stop();
+    check_stop(stop_);
     if (!reaches(item, area)) continue;
     if (const auto* group = std::get_if<GroupItem>(&item)) {
       paint_group(cr, *group, area);
@@ -290,10 +291,6 @@ void Painter::paint_still(cairo_t& cr, const MovingShapesItem& item) {
 const Light& Painter::light() {
   if (!light_) light_ = std::make_unique<Light>();
   return *light_;
-}
-
-void Painter::check_stop() const {
-  if (stop_.stop_requested()) throw Interrupted("interrupted");
 }
 
 }  // namespace piblocks

@@ -107,7 +107,6 @@ class Painter {
   void paint_still(cairo_t& cr, ItemId id, const ExposedBlock& block);
   void paint_still(cairo_t& cr, const MovingShapesItem& item);
   const Light& light();
-  void check_stop() const;
 
   TextSetting setting_;
   Fonts fonts_;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/stop.hpp"
 #include "core/text.hpp"
 #include "core/waiting_thread.hpp"
 #include "golden/frame_side.hpp"
@@ -127,7 +128,7 @@ class FrameComparer {
 
   void run(FrameSide& reference, FrameSide& actual) {
     while (true) {
-      check_stop();
+      check_stop(stop_);
       const auto a = reference.next_step();
       const auto b = actual.next_step();
       if (!a && !b) break;
@@ -139,7 +140,7 @@ class FrameComparer {
       const Fetched expected = reading.valid() ? reading.get()
                                : has_a         ? fetch(reference)
                                                : Fetched();
-      check_stop();
+      check_stop(stop_);
       if (expected.is_there || found.is_there) add_row(reference, expected, actual, found);
       const auto is_broken = [](const FrameSide& side, const Fetched& fetched) {
         return !fetched.problem.empty() && !side.goes_on_after_failure();
@@ -161,9 +162,6 @@ class FrameComparer {
     } catch (const std::system_error&) {
       return {};
     }
-  }
-  void check_stop() const {
-    if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
   }
   /// Once a stop has been requested, a failed call has been broken off: the frame has no problem.
   Fetched fetch(FrameSide& side) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/file_set.hpp"
+#include "core/stop.hpp"
 #include "core/text.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"
@@ -82,10 +83,11 @@ void add(FileSet& files, const char* name, std::string_view text) {
 }
 
 /// Writes the poster: the instant that was asked for, or else the last frame.
-void write_poster(const RenderJob& job, const Film& film, std::int64_t last, FileSet& files) {
+void write_poster(const RenderJob& job, const Film& film, std::int64_t last, FileSet& files,
+                  const std::stop_token& stop) {
   const DrawList poster =
       job.bundle->poster ? still_picture(film, *job.bundle->poster) : film.frame(last);
-  files.add(kPoster, draw_png(poster));
+  files.add(kPoster, draw_png(poster, stop));
 }
 
 void write_texts(const RenderJob& job, const std::string& alt, std::string_view captions,
@@ -143,14 +145,14 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
   const Log& run = shown.log();
   const Schedule& schedule = *segment.schedule();
   FileSet files(job.bundle->folder, "bundle");
-  write_poster(job, film, frames_before_reversal(scene, schedule) - 1, files);
+  write_poster(job, film, frames_before_reversal(scene, schedule) - 1, files, stop);
   write_texts(job, describe_video(scene, video_count(scene, run, schedule)),
               captions(scene, run, schedule), files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);
   Rendered rendered = render_film(video, film, on_progress, stop);
-  if (stop.stop_requested()) throw Interrupted("render: interrupted");
+  check_stop(stop);
   files.commit();
   return rendered;
 }

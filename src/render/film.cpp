@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/stop.hpp"
 #include "draw/montage.hpp"
 #include "media/png/png_reader.hpp"
 #include "physics/blocks.hpp"
@@ -299,7 +300,7 @@ FilmSound::FilmSound(const Film& film, std::stop_token stop,
       on_samples_(std::move(on_samples)) {}
 
 std::size_t FilmSound::read(std::span<float> samples) {
-  if (stop_.stop_requested()) throw Interrupted("render: interrupted");
+  check_stop(stop_);
   const std::size_t count = soundtrack_.read(samples);
   count_ += static_cast<std::int64_t>(count);
   on_samples_(count_);

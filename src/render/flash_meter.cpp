@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "draw/light.hpp"
 
@@ -165,7 +166,7 @@ void check_flashes(const Film& film, int most, const std::stop_token& stop) {
   std::optional<Flashing> first;
   Flashing worst;
   for (std::int64_t frame = 0; frame < film.frame_count(); ++frame) {
-    if (stop.stop_requested()) throw Interrupted("render: interrupted");
+    check_stop(stop);
     const std::span<const PixelRect> changed = canvas.update(film.frame(frame));
     const std::optional<Flashing> found = meter.take(canvas.view(), changed);
     if (!found) continue;

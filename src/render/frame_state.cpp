@@ -73,23 +73,31 @@ struct AgedCollision {
   double age_s;
 };
 
+/// Calls visit(index, stretch) for each collision that is passed, the latest first, until that
+/// returns false.
+template <typename Visit>
+void each_passed(const std::vector<Passage>& passages, const Visit& visit) {
+  for (const Passage& passage : passages) {
+    const bool forward = passage.is_forward();
+    Integer index = forward ? passage.last : passage.first;
+    for (Integer left = passage.size(); left > 0; --left, index += forward ? -1 : 1) {
+      if (!visit(index, passage.stretch)) return;
+    }
+  }
+}
+
 /// The newest collisions that the picture has passed, the latest first.
 std::vector<AgedCollision> newest(const Log& log, const std::vector<Passage>& passages,
                                   const Rational& video_s) {
   std::vector<AgedCollision> found;
-  for (const Passage& passage : passages) {
-    const Stretch& stretch = passage.stretch;
-    const bool forward = passage.is_forward();
-    Integer index = forward ? passage.last : passage.first;
-    for (Integer left = passage.size(); left > 0; --left, index += forward ? -1 : 1) {
-      if (found.size() == kNewest) return found;
-      BodyCollision collision = log.collision(index);
-      const Rational way_s = (time_of(log, collision, stretch) - stretch.time) / stretch.speed;
-      const double age_s = to_double(video_s - stretch.video_s - way_s);
-      // Only rounding can make a hit later than the moment.
-      found.push_back({std::move(collision), std::max(0.0, age_s)});
-    }
-  }
+  each_passed(passages, [&](const Integer& index, const Stretch& stretch) {
+    BodyCollision collision = log.collision(index);
+    const Rational way_s = (time_of(log, collision, stretch) - stretch.time) / stretch.speed;
+    const double age_s = to_double(video_s - stretch.video_s - way_s);
+    // Only rounding can make a hit later than the moment.
+    found.push_back({std::move(collision), std::max(0.0, age_s)});
+    return found.size() < kNewest;
+  });
   return found;
 }
 
@@ -129,18 +137,21 @@ Hit hit_of(const Log& log, const AgedCollision& aged) {
           blocks != nullptr ? blocks->gaps_at_collision(collision.index) : Gaps{}};
 }
 
-/// The pairs of the newest collisions, each once. @param passed  how many there are
-std::vector<MetPair> pairs_of(const Log& log, const Integer& newest, const Integer& passed) {
+/// The pairs of the collisions that are passed, each once, the latest first.
+/// @param passed  at most so many collisions
+std::vector<MetPair> pairs_of(const Log& log, const std::vector<Passage>& passages,
+                              const Integer& passed) {
   constexpr std::size_t kMostPairs = 64;
   // Few pairs take turns.
   const std::size_t most = std::min(kMostPairs, 2 * log.system().bodies.size());
   std::vector<MetPair> pairs;
-  Integer index = newest;
-  for (std::size_t n = 0; n < most && n < passed && index >= log.first_index(); ++n, --index) {
+  std::size_t count = 0;  // of collisions
+  each_passed(passages, [&](const Integer& index, const Stretch& /*stretch*/) {
     const BodyCollision collision = log.collision(index);
     const MetPair pair{collision.first, collision.second};
     if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
-  }
+    return ++count < most && count < passed;
+  });
   return pairs;
 }
 
@@ -181,17 +192,22 @@ void add_hits(FrameState& state, const Log& log, const VideoTime& video_time) {
     return passages(log, video_time, state.state.count,
                     std::max<Rational>(video_time.video_s - length_s, 0));
   };
+  std::vector<Passage> passages = passed(Rational(1, kWindowsPerSecond));
   Integer count = 0;
-  for (const Passage& passage : passed(Rational(1, kWindowsPerSecond))) count += passage.size();
+  for (const Passage& passage : passages) count += passage.size();
   double rate = kWindowsPerSecond * count.get_d();
   std::vector<AgedCollision> found;
   if (count < kFewHits) {
-    found = newest(log, passed(Rational(kLongestAge_s)), video_time.video_s);
+    passages = passed(Rational(kLongestAge_s));
+    found = newest(log, passages, video_time.video_s);
     if (found.size() == kNewest) rate = rate_of(found);
   }
-  if (is_moving(video_time)) state.hits_per_s = rate;
+  const bool moves = is_moving(video_time);
+  if (moves) state.hits_per_s = rate;
   if (rate > kMaxHitsPerSecond) {
-    state.met_pairs = pairs_of(log, state.state.count, std::max(count, Integer(found.size())));
+    if (moves) {
+      state.met_pairs = pairs_of(log, passages, std::max(count, Integer(found.size())));
+    }
     return;
   }
   for (auto aged = found.rbegin(); aged != found.rend(); ++aged) {

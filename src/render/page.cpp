@@ -12,6 +12,7 @@
 
 #include "core/descriptor.hpp"
 #include "core/file_set.hpp"
+#include "core/stop.hpp"
 #include "core/text.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
@@ -129,7 +130,7 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
   Rendered rendered = render_film(video, film, on_progress, stop);
   StepClock clock(job.profile, Step::write);
   write_page(*film.scene(), video.output, rendered.frame_count, page);
-  if (stop.stop_requested()) throw Interrupted("render: interrupted");
+  check_stop(stop);
   page.finish();
   files.commit();
   if (job.profile) {

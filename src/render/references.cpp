@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
@@ -120,7 +121,7 @@ void References::draw(
   Canvas canvas(view.width_px, view.height_px, view.background);
   canvas.listen(stop);
   for (const std::int64_t frame : frames) {
-    if (stop.stop_requested()) throw Interrupted("golden: interrupted");
+    check_stop(stop);
     canvas.update(film.frame(frame));
     use(frame, encode_png(canvas.view()));
   }
@@ -135,10 +136,10 @@ void References::render_into(const fs::path& folder, int jobs, const OnProgress&
   render_film(job, film, on_progress, stop);
   add_fingerprint(hashes);
   for (std::size_t i = 0; i < golden().frames.size(); ++i) {
-    if (stop.stop_requested()) throw Interrupted("golden: interrupted");
+    check_stop(stop);
     const DrawList picture = still_picture(film, parse_instant(golden().frames[i]));
     OutputFile file(folder / names[i + 1]);
-    file.write(draw_png(picture));
+    file.write(draw_png(picture, stop));
     file.finish();
   }
 }

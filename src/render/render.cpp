@@ -5,6 +5,7 @@
 
 #include <atomic>
 
+#include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
@@ -62,7 +63,7 @@ class Worker {
     encoder_->begin(plan_.chunks.begin(chunk));
     canvas_.listen(stop);
     for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
-      if (stop.stop_requested()) throw Interrupted("render: interrupted");
+      check_stop(stop);
       add_frame(frame, clock);
       frames_done_.fetch_add(1, std::memory_order_relaxed);
     }
@@ -222,7 +223,7 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
     add(rendered.profile.steps, work->spent);
     report();
   }
-  if (stop.stop_requested()) throw Interrupted("render: interrupted");
+  check_stop(stop);
   clock.enter(Step::write);
   sink->finish();
   rendered.aftermath = sink->aftermath();

@@ -58,8 +58,8 @@ DrawList still_picture(const Script& script, const Instant& instant);
 /// The same of a film that is there.
 DrawList still_picture(const Film& film, const Instant& instant);
 
-/// The bytes of a PNG file with the pixels of a frame. @throws DrawError, MediaError
-std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& stop = {});
+/// The bytes of a PNG file with the pixels of a frame. @throws DrawError, MediaError, Interrupted
+std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& stop);
 
 /// Each picture is the still_picture() of its instant. @throws as still_picture(); Interrupted
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/overwrite_check.hpp"
+#include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "media/libav/av_module.hpp"
 #include "media/output/output.hpp"
@@ -266,7 +267,7 @@ Rendered join(const std::vector<std::string>& parts, const std::string& output,
   for (const ShardFile& part : in_order) {
     ShardReader reader(part.path);
     while (const auto chunk = reader.next()) {
-      if (stop.stop_requested()) throw Interrupted("join: interrupted");
+      check_stop(stop);
       sink->append(*chunk);
       frames += static_cast<std::int64_t>(chunk->size());
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "core/stop.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "draw/montage.hpp"
@@ -46,18 +47,9 @@ Draw* drawing_for(std::string_view output, Draw* png, const char* command, const
                   output, endings));
 }
 
-/// @param draw  returns the bytes of the picture.
-void write_picture(const std::string& output, const char* command, const std::stop_token& stop,
-                   const auto& draw) {
-  OutputFile file(output);
-  const auto stopped = [&] { return Interrupted(fmt::format("{}: interrupted", command)); };
-  try {
-    const Bytes picture = draw();
-    if (stop.stop_requested()) throw stopped();
-    file.write(picture);
-  } catch (const Interrupted&) {
-    throw stopped();
-  }
+void write_picture(OutputFile& file, const Bytes& picture, const std::stop_token& stop) {
+  check_stop(stop);
+  file.write(picture);
   file.finish();
 }
 
@@ -158,7 +150,7 @@ std::vector<CaptionedPicture> pictures_of(const FilmRun& run, const std::vector<
   std::vector<CaptionedPicture> pictures;
   Progress progress{0, static_cast<std::int64_t>(times.size())};
   std::vector<DrawList> stills = run.stills(times, [&] {
-    if (stop.stop_requested()) throw Interrupted("interrupted");  // nothing has been opened
+    check_stop(stop);
     ++progress.frames_done;
     if (on_progress) on_progress(progress);
   });
@@ -193,8 +185,8 @@ DrawList still_picture(const Script& script, const Instant& instant) {
 void render_still(const Script& script, const Instant& instant, const std::string& output,
                   const std::stop_token& stop) {
   Draw* const draw = drawing_for(output, draw_png, "still", ".png, .svg, .pdf");
-  const DrawList list = still_picture(script, instant);
-  write_picture(output, "still", stop, [&] { return draw(list, stop); });
+  OutputFile file(output);
+  write_picture(file, draw(still_picture(script, instant), stop), stop);
 }
 
 std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
@@ -215,15 +207,14 @@ void render_sheet(const Scene& scene, const SheetInstants& instants, const std::
   const auto* const named = std::get_if<std::vector<Instant>>(&instants);
   if (named != nullptr) check_count(named->size());
   const FilmRun run = run_of(scene);
+  OutputFile file(output);
   std::vector<CaptionedPicture> pictures = pictures_of(
       run, named != nullptr ? *named : spread_over(scene, run.log(), std::get<Spread>(instants)),
       on_progress, stop);
   const bool is_png = draw == draw_page_png;
-  write_picture(output, "sheet", stop, [&] {
-    const DrawList page = arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
-                                  is_png ? kPageHeight_px : kPageHeight_pt);
-    return draw(page, stop);
-  });
+  const DrawList page = arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
+                                is_png ? kPageHeight_px : kPageHeight_pt);
+  write_picture(file, draw(page, stop), stop);
 }
 
 }  // namespace piblocks

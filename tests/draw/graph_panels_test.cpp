@@ -377,6 +377,45 @@ TEST(ConservationPanel, EnergyIsShared) {
   }
 }
 
+/// Whoever pushes: walls on both sides, a fixed block, nobody; rows that blocks share, too.
+TEST(ConservationPanel, BarsStayInTheirColumn) {
+  const Body fixed{std::nullopt, {20, 0}, {}, 1};
+  const Body heavy{30, {5, 0}, {3, 0}, 1};
+  std::vector<BodySystem> systems(5, BodySystem{1, {{1, {2, 0}, {-7, 0}, 1}, heavy}, {}});
+  systems[1].walls = {{"right", {9, 0}, {-1, 0}}};
+  systems[2].walls = {{"left", {0, 0}, {1, 0}}, {"right", {9, 0}, {-1, 0}}};
+  systems[3].bodies.push_back(fixed);
+  systems[4] = systems[2];
+  for (int i = 1; i < 9; ++i) systems[4].bodies.push_back({i, {5 + i, 0}, {i, 0}, Rational(1, 2)});
+  systems[4].walls[1].point[0] = 30;
+  for (const BodySystem& system : systems) {
+    Scene scene =
+        Pictures::scene_of(1, {{"show.panels", "conservation"}, {"view.size", "1280x720"}});
+    scene.bodies = Bodies{system, std::vector<BodyStyle>(system.bodies.size())};
+    scene.time.to = Rational(40);
+    const auto log = make_log(system, Rational(40));
+    const Composition composition(scene, *log);
+    double longest = 0;
+    for (Rational time = 0; time < 40; time += Rational(1, 7)) {
+      const Shown shown(composition.frame({.state = log->state_at(time), .time = time}));
+      double left = HUGE_VAL;  // of figures
+      for (const TextItem& text : shown.texts) {
+        if (!text.text.ends_with("%") && text.text.find('.') != std::string::npos) {
+          left = std::min(left, text.origin.x);
+        }
+      }
+      const std::size_t parts = system.bodies.size() - 1;
+      for (std::size_t i = parts; i < shown.bars.size(); ++i) {
+        const Rectangle& bar = shown.bars[i].bounds;
+        longest = std::max(longest, bar.width);
+        EXPECT_GE(bar.x, shown.bars.front().bounds.x - 1e-6) << to_double(time);
+        EXPECT_LE(bar.x + bar.width, left) << to_double(time);
+      }
+    }
+    EXPECT_GT(longest, 20);
+  }
+}
+
 TEST(GraphPanels, HoldAnySystem) {
   const std::vector<Settings> systems = {
       {{"blue.position", "4"}, {"blue.velocity", "-1"}},

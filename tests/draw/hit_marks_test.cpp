@@ -116,6 +116,31 @@ TEST(HitMarks, GlowByTheLogarithmOfTheRate) {
   }
 }
 
+/// Of any number of colours.
+TEST(HitMarks, GlowWhereverTheyAreTooMany) {
+  Scene scene = scene_with(lecture(1));
+  BodySystem system{1, {}, {{"left", {0, 0}, {1, 0}}}};
+  for (int i = 0; i < 40; ++i) {
+    system.bodies.push_back({.position = {1 + i, 0}, .velocity = {-i, 0}, .size = Rational(1, 2)});
+  }
+  scene.bodies = Bodies{system, std::vector<BodyStyle>(40)};
+  for (std::uint8_t i = 0; i < 40; ++i)
+    scene.bodies->styles[i].color =
+        std::array<std::uint8_t, 3>{200, static_cast<std::uint8_t>(6 * i), 50};
+  scene.view.x = {0, 42};
+  scene.time.to = Rational(1);
+  const auto log = make_log(system);
+  const Composition composition(scene, *log);
+  FrameState state{.state = log->state_at(0)};
+  state.hits_per_s = 1e6;
+  const auto first_glow = [&](std::uint32_t body) {
+    state.met_pairs = {{body, body + 1}};
+    return glow_of(composition.frame(state));
+  };
+  for (std::uint32_t body = 0; body < 39; ++body)
+    EXPECT_EQ(first_glow(body), first_glow(0)) << body;
+}
+
 TEST(HitMarks, OfTheWallAndOfBlocksAreInTheCornersAboveTheLowerBody) {
   for (const char* mass : {"1/4", "1", "100"}) {
     SCOPED_TRACE(mass);

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -260,16 +261,19 @@ TEST(BodyShutter, AnExposureStopsAtTheEndOfTheFilm) {
   EXPECT_LE(worst, 2);
 }
 
-/// Two blocks and a wall by other names, in both directions: thousands of collisions a frame.
+/// Two blocks and a wall by other names, in both directions and orders: thousands of collisions a
+/// frame.
 TEST(BodyShutter, FramesOfTheClosedFormAreMeansOfInstants) {
-  for (const int sign : {1, -1}) {
-    SCOPED_TRACE(sign);
+  for (const auto& [sign, is_inner_first] :
+       {std::pair(1, true), std::pair(1, false), std::pair(-1, true), std::pair(-1, false)}) {
+    SCOPED_TRACE(testing::Message() << sign << (is_inner_first ? "" : ", the outer block first"));
     BodySystem system{1, {}, {{"side", {sign > 0 ? 0 : 8, 0}, {sign, 0}}}};
     const auto at = [&](const Rational& distance) -> Rational {
       return sign > 0 ? distance : Rational(8 - distance);
     };
     system.bodies.push_back({.mass = 1, .position = {at(2), 0}});
     system.bodies.push_back({.mass = 100'000'000, .position = {at(5), 0}, .velocity = {-sign, 0}});
+    if (!is_inner_first) std::swap(system.bodies[0], system.bodies[1]);
     const Scene scene = scene_of(std::move(system), 8);
     // The turn is at 4.
     for (const std::int64_t frame : {15, 30, 38, 39, 40, 60}) {

@@ -344,7 +344,33 @@ Scene scene_of_bodies(int dimensions) {
   return scene;
 }
 
-/// A hit is on the surface of both bodies; pairs that met are those of the newest collisions.
+/// Also of those that a film which runs backwards has undone.
+TEST(FrameStates, PairsThatMetAreThoseOfTheNewestCollisions) {
+  Scene scene = scene_of_bodies(1);
+  scene.bodies->system.bodies[0].velocity[0] = 300;
+  scene.pacing.loop = true;
+  const auto log = make_log(scene.bodies->system, Rational(6));
+  const Schedule schedule = make_schedule(scene, *log);
+  int backwards = 0;
+  for (Rational video_s = Rational(1, 3); video_s < 11; video_s += Rational(1, 3)) {
+    const FrameState state =
+        frame_state(*log, schedule.at(video_s), {.hits = true}, 1, {schedule, video_s});
+    if (state.met_pairs.empty()) continue;
+    const bool is_forward = schedule.at(video_s).time < schedule.at(video_s + Rational(1, 99)).time;
+    backwards += is_forward ? 0 : 1;
+    std::vector<MetPair> expected;
+    for (int n = 0; n < 4; ++n) {  // twice as many as bodies
+      const BodyCollision met = log->collision(is_forward ? Integer(state.state.count - n)
+                                                          : Integer(state.state.count + 1 + n));
+      const MetPair pair{met.first, met.second};
+      if (std::ranges::find(expected, pair) == expected.end()) expected.push_back(pair);
+    }
+    EXPECT_EQ(state.met_pairs, expected) << to_double(video_s);
+  }
+  EXPECT_GT(backwards, 3);
+}
+
+/// A hit is on the surface of both bodies.
 TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
   for (const int dimensions : {1, 2}) {
     SCOPED_TRACE(dimensions);

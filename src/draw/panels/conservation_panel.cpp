@@ -9,6 +9,7 @@
 
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {
@@ -51,16 +52,15 @@ struct Momenta {
       if (mass) factors[i] = mpf_class(*mass, largest.get_prec()) / unit;
     }
     sum = mpf_class(mpf_class(total, largest.get_prec()) / unit).get_d();
-    most = mpf_class(largest / unit).get_d();
-    const mpf_class most_of_all = root_of(energy * masses);
-    least = sum - mpf_class(most_of_all / unit).get_d();
+    most_of_one = mpf_class(largest / unit).get_d();
+    most_of_all = mpf_class(root_of(energy * masses) / unit).get_d();
   }
 
   /// From a body's velocity; they may be beyond the range of a double.
   std::vector<mpf_class> factors;
-  double sum = 0;     ///< at time 0, and always with what walls have taken since
-  double most = 1;    ///< of a block
-  double least = -1;  ///< of walls
+  double sum = 0;          ///< at time 0, and always with what walls have taken since
+  double most_of_one = 1;  ///< the greatest that a block can have
+  double most_of_all = 1;  ///< and all blocks together
 };
 
 /// A row of momentum.
@@ -88,6 +88,7 @@ class ConservationPanel {
     }
     moves_ = energy > 0;
     make_rows(context);
+    find_range(context.bodies.system);
     place_rows();
     place_columns(context);
     add_still();
@@ -153,6 +154,20 @@ class ConservationPanel {
     moving_rows_ = rows_.size() - 1;
   }
 
+  /// The least and the greatest momentum of a row. Blocks that walls push to the right give them
+  /// what is less than the sum.
+  void find_range(const BodySystem& system) {
+    const bool is_shared = !rows_.empty() && rows_.front().bodies.size() > 1;
+    const double most_of_row = is_shared ? momenta_.most_of_all : momenta_.most_of_one;
+    const LineWalls walls = line_walls(system);
+    const bool has_fixed =
+        std::ranges::any_of(system.bodies, [](const Body& body) { return !body.mass; });
+    least_ = -most_of_row;
+    most_ = most_of_row;
+    if (walls.left || has_fixed) least_ = std::min(least_, momenta_.sum - momenta_.most_of_all);
+    if (walls.right || has_fixed) most_ = std::max(most_, momenta_.sum + momenta_.most_of_all);
+  }
+
   const Rectangle& inside() const { return diagram_.inside(); }
   static double height_em(std::size_t rows) {
     return kEnergyRow_em + kMomentumRow_em * double(rows);
@@ -184,8 +199,8 @@ class ConservationPanel {
     const double em = diagram_.text_px();
     double label = std::max(context.font.width_em("energy"), context.font.width_em("sum"));
     for (const Row& row : rows_) label = std::max(label, context.font.width_em(row.name));
-    const double figure = std::max(widths_.width_em(text_of(momenta_.least)),
-                                   widths_.width_em(text_of(-momenta_.most)));
+    const double figure =
+        std::max(widths_.width_em(text_of(least_)), widths_.width_em(text_of(most_)));
     left_ = std::round(inside().x + (label + kBesideBars_em) * em);
     right_ = std::round(inside().x + inside().width - (figure + kBesideBars_em) * em);
     has_figures_ = right_ - left_ >= kLeastBars_em * em;
@@ -199,7 +214,7 @@ class ConservationPanel {
   }
   double row_top(std::size_t row) const { return top_ + double(row) * row_px_; }
   double x_of(double value) const {
-    const double share = (value - momenta_.least) / (momenta_.most - momenta_.least);
+    const double share = (value - least_) / (most_ - least_);
     return left_ + share * (right_ - left_);
   }
 
@@ -307,6 +322,8 @@ class ConservationPanel {
   Face face_;
   TextWidths widths_;
   std::vector<Row> rows_;
+  double least_ = -1;  ///< of what bars show
+  double most_ = 1;
   std::size_t moving_rows_ = 0;  ///< all but the sum, which may be left out
   bool has_heading_ = true;
   bool has_sum_ = true;

@@ -8,14 +8,8 @@
 namespace piblocks {
 namespace {
 
-/// A path of more corners than this for each column of pixels is sampled once a column.
-constexpr std::size_t kCornersPerColumn = 4;
-
-/// A place of a body's centre.
-struct Corner {
-  double time;
-  double position;
-};
+/// More collisions than this for each column of pixels are not shown one by one.
+constexpr double kCornersPerColumn = 4;
 
 class PositionsPanel {
  public:
@@ -25,7 +19,10 @@ class PositionsPanel {
         low_(to_double(context.scene.view.x.low)),
         high_(to_double(context.scene.view.x.high)) {
     const BodySystem& system = context.bodies.system;
-    const std::vector<std::vector<Corner>> paths = paths_of(context.log);
+    const Span& span = axis_.span();
+    const double corners = kCornersPerColumn * std::max(1.0, std::ceil(axis_.plot().width));
+    const std::vector<std::vector<PathPoint>> paths =
+        context.log.paths(span.from, span.to, static_cast<std::size_t>(corners));
     for (std::size_t i = 0; i < paths.size(); ++i) {
       half_widths_.push_back(to_double(system.bodies[i].size) / 2);
       add_band(paths[i], half_widths_.back(), context.colors[i]);
@@ -64,40 +61,7 @@ class PositionsPanel {
     return axis_.bottom() - share * axis_.plot().height;
   }
 
-  /// The corners of each body's path while the scene is shown.
-  std::vector<std::vector<Corner>> paths_of(const Log& log) const {
-    const Span& span = axis_.span();
-    const auto columns = static_cast<std::size_t>(std::max(1.0, std::ceil(axis_.plot().width)));
-    const BodiesState first = log.state_at(span.from);
-    const BodiesState last = log.state_at(span.to);
-    const std::size_t bodies = first.bodies.size();
-    const Integer collisions = last.count - first.count;
-    std::vector<std::vector<Corner>> paths(bodies);
-    const auto add = [&](const Rational& time, const BodiesState& state) {
-      for (std::size_t i = 0; i < bodies; ++i) {
-        paths[i].push_back({to_double(time), state.bodies[i].position[0]});
-      }
-    };
-    add(span.from, first);
-    if (collisions > Integer(kCornersPerColumn * columns * bodies)) {
-      for (std::size_t column = 1; column < columns; ++column) {
-        const Rational time = span.from + (span.to - span.from) * Rational(column, columns);
-        add(time, log.state_at(time));
-      }
-    } else {
-      for (Integer k = first.count + 1; k <= last.count && k <= log.last(); ++k) {
-        const BodyCollision c = log.collision(k);
-        for (const auto& [id, motion] :
-             {std::pair(c.first, c.first_after), std::pair(c.second, c.second_after)}) {
-          if (id < bodies) paths[id].push_back({c.time.hi, motion.position[0]});
-        }
-      }
-    }
-    add(span.to, last);
-    return paths;
-  }
-
-  void add_band(const std::vector<Corner>& path, double half_width, const BlockColors& colors) {
+  void add_band(const std::vector<PathPoint>& path, double half_width, const BlockColors& colors) {
     std::vector<Point> outline = edge(path, half_width);
     const std::vector<Point> lower = edge(path, -half_width);
     outline.insert(outline.end(), lower.rbegin(), lower.rend());
@@ -105,20 +69,21 @@ class PositionsPanel {
   }
 
   /// An edge of a band, with a corner wherever it leaves the diagram.
-  std::vector<Point> edge(const std::vector<Corner>& path, double shift) const {
+  std::vector<Point> edge(const std::vector<PathPoint>& path, double shift) const {
+    const double begin = to_double(axis_.span().from);
     std::vector<Point> points;
     for (std::size_t i = 0; i < path.size(); ++i) {
-      const auto& [time, centre] = path[i];
-      const double position = centre + shift;
+      const double time = begin + path[i].after;
+      const double position = path[i].position[0] + shift;
       if (i > 0) {
-        const double before = path[i - 1].position + shift;
+        const double earlier = begin + path[i - 1].after;
+        const double before = path[i - 1].position[0] + shift;
         std::array ends = {low_, high_};
         if (before > position) std::swap(ends[0], ends[1]);
         for (const double end : ends) {
           if ((before < end) == (position < end)) continue;
           const double share = (end - before) / (position - before);
-          const double then = path[i - 1].time + share * (time - path[i - 1].time);
-          points.push_back({axis_.x_of(then), y_of(end)});
+          points.push_back({axis_.x_of(earlier + share * (time - earlier)), y_of(end)});
         }
       }
       points.push_back({axis_.x_of(time), y_of(position)});

@@ -268,13 +268,14 @@ class DiscArrows {
         color_(context.palette.text),
         line_px_(context.sizes.data_line),
         head_px_(kHead * context.sizes.short_side) {
-    double mass = 0;
+    Rational mass = 0;
     for (const Body& body : context.bodies.system.bodies) {
-      if (body.mass) mass += to_double(*body.mass);
+      if (body.mass) mass += *body.mass;
     }
-    const double energy = to_double(twice_energy(context.bodies.system));
-    if (energy > 0)
-      px_per_speed_ = kDiscArrow * context.sizes.short_side / std::sqrt(energy / mass);
+    const Rational energy = twice_energy(context.bodies.system);
+    if (energy == 0) return;
+    const mpf_class usual_speed = root_of(energy / mass);
+    px_per_speed_ = mpf_class(kDiscArrow * context.sizes.short_side / usual_speed).get_d();
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -283,7 +284,7 @@ class DiscArrows {
       const auto& [position, velocity] = shown.state.bodies[i];
       const Point way{velocity[0] * px_per_speed_, -velocity[1] * px_per_speed_};
       const double length = rounded::hypot(way.x, way.y);
-      if (length == 0) continue;
+      if (!(length > 0 && length < HUGE_VAL)) continue;
       const Point centre = layout_.at(position);
       const double from = layout_.width_px(i) / 2 / length;
       add_arrow({nth(ItemId::velocities, kIds * i),

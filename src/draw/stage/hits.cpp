@@ -30,8 +30,10 @@ constexpr double kGlowReach = 0.8;
 /// when the rate has doubled so many times.
 constexpr double kLeastGlow = 0.4;
 constexpr double kHalfGlow = 6;
-/// Colours of glows that are told apart.
+/// Glows have at most so many colours. Where there are more, some are in the colour of text.
 constexpr std::size_t kMostColors = 16;
+/// Kinds of free corners.
+constexpr std::size_t kCorners = 3;
 /// Strengths that are told apart, from kLeastGlow to 1: one for each of its opacities.
 constexpr int kGlows = 38;
 
@@ -80,16 +82,21 @@ Contact contact_of(double x_px, double floor_px, double left_px, double right_px
 HitMarks::HitMarks(const DrawingContext& context, double most_reach_px, double most_glow_px)
     : reach_px_(std::min(most_reach_px, style::kHitReach * context.sizes.short_side)),
       glow_px_(std::min(kGlowReach * reach_px_, most_glow_px)),
-      line_px_(kMarkLine * context.sizes.wall_line) {
-  constexpr std::size_t kCorners = 3;
+      line_px_(kMarkLine * context.sizes.wall_line),
+      other_color_(context.palette.text) {
   if (context.is_plane()) return;
+  add_glows(other_color_);
   for (const BlockColors& colors : context.colors) {
-    for (const auto& [left, right] : {std::pair(false, true), {true, false}, {true, true}}) {
-      const Contact contact{{}, left, right, colors.line};
-      Glows& glows = glows_[kind_of(contact)];
-      if (glows.empty()) glows = glows_of(contact);
-    }
-    if (glows_.size() >= kCorners * kMostColors) return;
+    if (glows_.size() < kCorners * kMostColors) add_glows(colors.line);
+  }
+}
+
+/// Glows of one colour, in each free corner.
+void HitMarks::add_glows(const Color& color) {
+  for (const auto& [left, right] : {std::pair(false, true), {true, false}, {true, true}}) {
+    const Contact contact{{}, left, right, color};
+    Glows& glows = glows_[kind_of(contact)];
+    if (glows.empty()) glows = glows_of(contact);
   }
 }
 
@@ -142,8 +149,12 @@ void HitMarks::add_glow(double hits_per_s, std::span<const Contact> contacts,
   const double reach_px = std::ceil(glow_px_) + 1;
   std::size_t n = 0;
   for (const Contact& contact : contacts) {
-    const auto glows = glows_.find(kind_of(contact));
-    if (glows == glows_.end()) continue;
+    auto glows = glows_.find(kind_of(contact));
+    if (glows == glows_.end()) {
+      Contact other = contact;
+      other.color = other_color_;
+      glows = glows_.find(kind_of(other));
+    }
     const Point at{std::round(contact.at.x), std::round(contact.at.y)};
     items.emplace_back(PlateItem{nth(ItemId::hits, n++),
                                  {at.x - reach_px, at.y - reach_px, 2 * reach_px, reach_px + 1},

@@ -42,10 +42,12 @@ class HitMarks {
   using Glows = std::vector<std::shared_ptr<const Plate>>;
   static std::tuple<bool, bool, std::uint32_t> kind_of(const Contact& contact);
   Glows glows_of(const Contact& contact) const;
+  void add_glows(const Color& color);
 
   double reach_px_;  ///< of arcs
   double glow_px_;   ///< and of glows
   double line_px_;
+  Color other_color_;  ///< of glows, for colours beyond the most
   std::map<std::tuple<bool, bool, std::uint32_t>, Glows> glows_;  ///< by kind_of()
 };
 

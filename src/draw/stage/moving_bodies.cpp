@@ -173,6 +173,11 @@ void mirror(ExposedBlocksItem& item, double frame_px) {
   std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
 }
 
+void turn_over(ExposedBlocksItem& item) {
+  std::swap(item.behind, item.front);
+  for (TouchingBlocks& contact : item.contacts) std::swap(contact.behind_x, contact.front_x);
+}
+
 ExposedBlocksItem closed_blocks_item(std::span<const PlacedBody> bodies, const Layout& map,
                                      Exposures exposures) {
   const double frame_px = std::ceil(map.visible_right_px);  // on the grid of pixels, mirrored too
@@ -186,6 +191,7 @@ ExposedBlocksItem closed_blocks_item(std::span<const PlacedBody> bodies, const L
   ExposedBlocksItem item =
       exposed_blocks(block_of(closed.red), block_of(closed.blue), axis, exposures);
   if (is_mirrored) mirror(item, frame_px);
+  if (closed.red < closed.blue) turn_over(item);  // the first body is in front
   item.id = kMovingBodies;
   return item;
 }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/stop.hpp"
 #include "media/libav/av.hpp"
 #include "media/libav/video_reader.hpp"
 #include "media/pixels/animation.hpp"
@@ -68,7 +69,7 @@ class GifReader final : public FrameReader {
                                                      : "it is damaged"));
   }
   void check(int code) const {
-    if (input_->stop.stop_requested()) throw Interrupted("video: interrupted");
+    check_stop(input_->stop);
     if (code == GIF_ERROR) fail(file_->Error);
   }
   void check_size(int width_px, int height_px) const {

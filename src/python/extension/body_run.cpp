@@ -11,6 +11,7 @@
 #include "cli/log_rows.hpp"
 #include "cli/script_facts.hpp"
 #include "cli/state_text.hpp"
+#include "core/stop.hpp"
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
@@ -64,7 +65,7 @@ void fill_log(const BoundBodyRun& run, const std::string& first_text, const py::
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     fmt::memory_buffer row;
     for (std::size_t i = 0; i < rows; ++i, row.clear()) {
-      if (stop.stop_requested()) throw Interrupted("log: interrupted");
+      check_stop(stop);
       cli::append_body_row(run.log().system(), run.log().collision(first + Integer(i)), row);
       if (row.size() != row_bytes) throw std::invalid_argument("the rows have another size");
       std::memcpy(memory.data() + i * row_bytes, row.data(), row_bytes);
@@ -101,7 +102,7 @@ std::vector<std::string> fill_states(const BoundBodyRun& run, const std::vector<
   std::vector<std::string> long_counts;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     for (std::size_t i = 0; i < texts.size(); ++i) {
-      if (stop.stop_requested()) throw Interrupted("state: interrupted");
+      check_stop(stop);
       const Rational time = time_of_text(run, texts[i]);
       const BodiesState state = run.log().state_at(time);
       times[i] = shown(to_double(time));

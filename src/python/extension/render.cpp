@@ -12,6 +12,7 @@
 #include "cli/render_job.hpp"
 #include "cli/script_facts.hpp"
 #include "core/overwrite_check.hpp"
+#include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
@@ -69,7 +70,7 @@ py::tuple render_film(const BoundScript& bound, const std::string& output, const
     const auto report = [&](const Progress& now) {
       if (is_told) call([&] { progress(now.frames_done, now.frame_count); });
       // The file appears after the last report.
-      if (stop.stop_requested()) throw Interrupted("render: interrupted");
+      check_stop(stop);
     };
     rendered = render(*job, report, stop);
     if (!rendered.aftermath.empty()) rendered.notes.push_back(rendered.aftermath);

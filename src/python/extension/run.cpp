@@ -13,6 +13,7 @@
 #include "cli/log_rows.hpp"
 #include "cli/script_facts.hpp"
 #include "cli/state_text.hpp"
+#include "core/stop.hpp"
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
@@ -60,7 +61,7 @@ void fill_log(const BoundRun& run, const std::string& first_text, const py::buff
     char* at = reinterpret_cast<char*>(memory.data());
     const char* const end = at + memory.size();
     for (CollisionBatch batch{}; at < end && collisions->read(batch);) {
-      if (stop.stop_requested()) throw Interrupted("log: interrupted");
+      check_stop(stop);
       const Integer begin = has_indices ? batch.first : Integer(batch.first - first);
       cli::write_rows(batch, begin.get_si(), at);
       at += batch.size * cli::kRow_bytes;
@@ -133,7 +134,7 @@ std::vector<std::string> fill_states(const CollisionLog& log, const Times& times
   const std::optional<Integer> infinite = cli::infinite_count(log);
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     for (std::size_t i = 0; i < times.size(); ++i) {
-      if (stop.stop_requested()) throw Interrupted("state: interrupted");
+      check_stop(stop);
       const FoundState found = state_at(log, time_of_one(times[i], log), has_bounds);
       std::memcpy(memory.data() + i * row_bytes, &found.row, row_bytes);
       const bool is_infinite = found.count == infinite;

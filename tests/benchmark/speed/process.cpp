@@ -99,7 +99,7 @@ void ProcessRunner::wait_for(pid_t child, Finished& finished) const {
     if (signal <= 0 || signal == SIGCHLD) continue;
     kill(-child, SIGTERM);
     wait4(child, &status, 0, &used);
-    throw Interrupted("interrupted");
+    throw Interrupted();
   }
   note_end(status, used, finished);
 }
