@@ -42,6 +42,10 @@ bool is_finite(const BodyMotion& motion) {
          std::ranges::all_of(motion.velocity, is_number);
 }
 
+const TwoBlocks* two_blocks_of(const Log& log) {
+  return log.pair() != nullptr ? &log.pair()->two_blocks() : nullptr;
+}
+
 /// Places all that a scene shows, and makes its drawables in the order of their ids.
 class Composer {
  public:
@@ -49,9 +53,10 @@ class Composer {
       : scene_(scene),
         bodies_(bodies_of(scene)),
         is_article_(scene.view.theme == Theme::article && bodies_.system.dimensions == 1),
-        palette_(scene.bodies ? palette_of(scene.view.theme)
-                              : palette_of(scene.view.theme, scene.system)),
-        colors_(colors_of(bodies_, scene.view.theme, palette_)),
+        colors_(colors_of(bodies_, scene.view.theme, two_blocks_of(log))),
+        palette_(log.pair() != nullptr
+                     ? palette_of(scene.view.theme, log.pair()->two_blocks(), colors_)
+                     : palette_of(scene.view.theme)),
         sizes_(scene.view),
         context_{.scene = scene,
                  .bodies = bodies_,
@@ -193,8 +198,8 @@ class Composer {
   Bodies bodies_;
   bool is_article_;
   Fonts fonts_;
-  Palette palette_;
   std::vector<BlockColors> colors_;  ///< of the bodies
+  Palette palette_;
   Sizes sizes_;
   Layout layout_;  ///< made by run(): what else there is decides it
   DrawingContext context_;

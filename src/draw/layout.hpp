@@ -102,7 +102,7 @@ struct DrawingContext {
   /// Of two blocks beside a wall, for what is drawn for them alone.
   const CollisionLog& two_blocks() const { return *pair(); }
   /// Nothing where the scene has other bodies.
-  const CollisionLog* pair() const { return scene.bodies ? nullptr : log.pair(); }
+  const CollisionLog* pair() const { return log.pair(); }
   bool is_plane() const noexcept { return bodies.system.dimensions == 2; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };

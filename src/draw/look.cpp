@@ -187,6 +187,30 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
   return {fill, readable(edge, palette, 3.2), text, line, readable(fill, palette, 4.8), 0, ""};
 }
 
+/// See colors_of().
+void name(BlockColors& blue, BlockColors& red, const TwoBlocks& blocks) {
+  const auto has_color_as_name = [](const BlockColors& block) {
+    return *block.name != '\0' && std::string_view(block.name) == block.full_name;
+  };
+  if (has_color_as_name(blue) && has_color_as_name(red)) return;
+  const auto& [face, inner, outer, restitution, wall_restitution] = blocks.blocks;
+  if (inner.mass == outer.mass) {
+    BlockColors& left = blocks.side > 0 ? blue : red;
+    BlockColors& right = blocks.side > 0 ? red : blue;
+    left.name = "left";
+    left.full_name = "left block";
+    right.name = "right";
+    right.full_name = "right block";
+    return;
+  }
+  BlockColors& large = outer.mass > inner.mass ? red : blue;
+  BlockColors& small = outer.mass > inner.mass ? blue : red;
+  large.name = "large";
+  large.full_name = "large block";
+  small.name = "small";
+  small.full_name = "small block";
+}
+
 }  // namespace
 
 Palette palette_of(Theme theme) {
@@ -196,21 +220,15 @@ Palette palette_of(Theme theme) {
   return kPalettes.at(static_cast<std::size_t>(theme));
 }
 
-Palette palette_of(Theme theme, const BlockSystem& system) {
+Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<BlockColors>& colors) {
   Palette palette = palette_of(theme);
-  const bool has_colors_as_names = palette.blue.name == palette.blue.full_name;
-  if (has_colors_as_names || system.blue.mass == system.red.mass) return palette;
-  const bool is_red_large = system.red.mass > system.blue.mass;
-  BlockColors& large = is_red_large ? palette.red : palette.blue;
-  BlockColors& small = is_red_large ? palette.blue : palette.red;
-  large.name = "large";
-  large.full_name = "large block";
-  small.name = "small";
-  small.full_name = "small block";
+  palette.blue = colors[blocks.blue];
+  palette.red = colors[blocks.red];
   return palette;
 }
 
-std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const Palette& palette) {
+std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const TwoBlocks* blocks) {
+  const Palette palette = palette_of(theme);
   const std::vector<Body>& all = bodies.system.bodies;
   const bool is_dark = luminance(palette.background) < 0.2;
   const bool has_bars = palette.red.bars > 0;
@@ -233,6 +251,7 @@ std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const Pale
       colors.push_back(turns[all.size() > kMostColored ? 0 : i % turns.size()]);
     }
   }
+  if (blocks != nullptr) name(colors[blocks->blue], colors[blocks->red], *blocks);
   return colors;
 }
 

@@ -45,13 +45,16 @@ struct Palette {
 };
 
 Palette palette_of(Theme theme);
-/// The same for one system: blocks that are not red and blue are called large and small, unless
-/// their masses are equal.
-Palette palette_of(Theme theme, const BlockSystem& system);
+/// The same for two blocks beside something immovable, which are blue and red in diagrams.
+/// @param colors  of the bodies
+Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<BlockColors>& colors);
 
 /// Of each body: the colour that the scene gives it; else those of blue and red, and further ones,
-/// in turn. A body that no collision moves has the colour of walls.
-std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const Palette& palette);
+/// in turn. A body that no collision moves has the colour of walls. Two blocks beside something
+/// immovable have names: their colours if these are the theme's, and have names; else they are
+/// large and small, or left and right if their masses are equal.
+/// @param blocks  nullptr for other bodies
+std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const TwoBlocks* blocks);
 
 /// Nothing if the view is transparent.
 std::optional<Color> background_of(const View& view);

@@ -16,11 +16,12 @@ BodiesState bodies_state(BlockState state) {
   return {std::move(state.count), {motion(state.blue), motion(state.red)}};
 }
 
-BlockState blocks_state(const BodiesState& state) {
-  const auto motion = [](const BodyMotion& body) {
-    return Motion{body.position[0], body.velocity[0]};
+BlockState blocks_state(const BodiesState& state, const TwoBlocks& blocks) {
+  const auto motion = [&](std::size_t body) {
+    const auto& [position, velocity] = state.bodies[body];
+    return Motion{blocks.side * position[0], blocks.side * velocity[0]};
   };
-  return {state.count, motion(state.bodies[0]), motion(state.bodies[1])};
+  return {state.count, motion(blocks.blue), motion(blocks.red)};
 }
 
 }  // namespace piblocks

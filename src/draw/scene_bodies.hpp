@@ -13,7 +13,7 @@ namespace piblocks {
 Bodies bodies_of(const Scene& scene);
 
 BodiesState bodies_state(BlockState state);
-/// Back again. @param state  of two bodies
-BlockState blocks_state(const BodiesState& state);
+/// The two blocks of a state, as seen from what is immovable beside them.
+BlockState blocks_state(const BodiesState& state, const TwoBlocks& blocks);
 
 }  // namespace piblocks

@@ -146,7 +146,7 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
   const Schedule& schedule = *segment.schedule();
   FileSet files(job.bundle->folder, "bundle");
   write_poster(job, film, frames_before_reversal(scene, schedule) - 1, files, stop);
-  write_texts(job, describe_video(scene, video_count(scene, run, schedule)),
+  write_texts(job, describe_video(scene, run, video_count(scene, run, schedule)),
               captions(scene, run, schedule), files);
   RenderJob video = job;
   video.bundle.reset();

@@ -104,13 +104,13 @@ void write_page(const FilmSegment& shown, const fs::path& video, std::int64_t fr
   const Rational& rate = scene.view.frame_rate;
   page.write(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
-      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, count))),
+      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, run, count))),
       fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px),
       fmt::arg("rate", rate.get_num().get_str() + "/" + rate.get_den().get_str()),
       fmt::arg("frames", frames), fmt::arg("loop", scene.pacing.loop ? "loop " : "")));
   add_video(video, page);
   page.write(fmt::format(kFoot, fmt::arg("captions", base64_text(captions(scene, run, schedule))),
-                         fmt::arg("description", escaped(describe_video(scene, count))),
+                         fmt::arg("description", escaped(describe_video(scene, run, count))),
                          fmt::arg("script", kPageScript)));
 }
 

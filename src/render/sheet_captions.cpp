@@ -95,9 +95,10 @@ bool refine_clashes(std::vector<WrittenTime>& all, std::vector<std::string>& tex
 
 }  // namespace
 
-std::vector<std::string> sheet_captions(const Scene& scene, const std::vector<Instant>& instants,
+std::vector<std::string> sheet_captions(const Scene& scene, const Log& log,
+                                        const std::vector<Instant>& instants,
                                         const std::vector<Rational>& times) {
-  const std::optional<Rational> turn = scene.bodies ? std::nullopt : turn_of(scene.system);
+  const std::optional<Rational> turn = turn_of(log);
   const bool picture_has_time = scene.show.has(Overlay::time);
   if (picture_has_time && !turn) return std::vector<std::string>(times.size());
   std::vector<WrittenTime> all;

@@ -14,7 +14,8 @@ namespace piblocks {
 /// differently: "t = 3.5", or "t = turn − 2.1×10⁻⁷" if the instant is named so, if times near the
 /// turn look alike otherwise, or if the picture itself has the time. Empty where the picture has it
 /// and there is no turn. @param times  of the instants, in their order.
-std::vector<std::string> sheet_captions(const Scene& scene, const std::vector<Instant>& instants,
+std::vector<std::string> sheet_captions(const Scene& scene, const Log& log,
+                                        const std::vector<Instant>& instants,
                                         const std::vector<Rational>& times);
 
 }  // namespace piblocks

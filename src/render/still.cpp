@@ -104,9 +104,12 @@ std::vector<Instant> spread_over_count(const Span& span, const ShownCollisions& 
   return instants;
 }
 
+/// Two blocks, whose collisions all happen at once.
+bool goes_through_corner(const Log& log) { return log.pair() && corner_of(log.pair()->blocks()); }
+
 /// @throws UsageError if the run has not as many different counts.
-void check_spread_over_count(const Scene& scene, const ShownCollisions& shown, int pictures) {
-  if (!scene.bodies && corner_of(scene.system)) {
+void check_spread_over_count(const Log& log, const ShownCollisions& shown, int pictures) {
+  if (goes_through_corner(log)) {
     throw UsageError(
         "sheet: cannot space pictures by count, since all collisions happen at once; use --by "
         "time");
@@ -119,12 +122,11 @@ void check_spread_over_count(const Scene& scene, const ShownCollisions& shown, i
 }
 
 /// By count if pictures at equal times would miss the turn, where collisions are densest.
-Spacing usual_spacing(const Scene& scene, const Span& span, const ShownCollisions& shown,
+Spacing usual_spacing(const Log& log, const Span& span, const ShownCollisions& shown,
                       int pictures) {
-  if (scene.bodies) return Spacing::time;
-  const std::optional<Rational> turn = turn_of(scene.system);
+  const std::optional<Rational> turn = turn_of(log);
   const bool shows_turn = turn && span.from <= *turn && *turn <= span.to;
-  const bool is_enough = shown.size() + 1 >= pictures && !corner_of(scene.system);
+  const bool is_enough = shown.size() + 1 >= pictures && !goes_through_corner(log);
   return shows_turn && is_enough ? Spacing::count : Spacing::time;
 }
 
@@ -134,8 +136,8 @@ std::vector<Instant> spread_over(const Scene& scene, const Log& log, const Sprea
   const Span span = span_of(scene, log);
   if (by == Spacing::time) return spread_over_time(span, pictures);
   const ShownCollisions shown = collisions_of(span, log);
-  if (by == Spacing::count) check_spread_over_count(scene, shown, pictures);
-  return by.value_or(usual_spacing(scene, span, shown, pictures)) == Spacing::count
+  if (by == Spacing::count) check_spread_over_count(log, shown, pictures);
+  return by.value_or(usual_spacing(log, span, shown, pictures)) == Spacing::count
              ? spread_over_count(span, shown, pictures)
              : spread_over_time(span, pictures);
 }
@@ -146,7 +148,7 @@ std::vector<CaptionedPicture> pictures_of(const FilmRun& run, const std::vector<
   std::vector<Rational> times;
   times.reserve(instants.size());
   for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
-  const std::vector<std::string> captions = sheet_captions(run.scene(), instants, times);
+  const std::vector<std::string> captions = sheet_captions(run.scene(), run.log(), instants, times);
   std::vector<CaptionedPicture> pictures;
   Progress progress{0, static_cast<std::int64_t>(times.size())};
   std::vector<DrawList> stills = run.stills(times, [&] {

@@ -55,21 +55,20 @@ std::string collision_words(const BlockSystem& system) {
 }
 
 /// "3 blocks", "200 discs"
-std::string bodies_of(const Bodies& bodies) {
-  const std::size_t count = bodies.system.bodies.size();
-  const char* const name = bodies.system.dimensions == 1 ? "block" : "disc";
+std::string bodies_of(const BodySystem& system) {
+  const std::size_t count = system.bodies.size();
+  const char* const name = system.dimensions == 1 ? "block" : "disc";
   return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
 }
 
-std::string describe_bodies(const Bodies& bodies, const VideoCount& count) {
-  const bool is_line = bodies.system.dimensions == 1;
-  const std::size_t walls = bodies.system.walls.size();
+std::string describe_bodies(const BodySystem& system, const VideoCount& count) {
+  const std::size_t walls = system.walls.size();
   const std::string place =
       walls == 0 ? std::string() : fmt::format(", with {} wall{}", walls, walls == 1 ? "" : "s");
   return fmt::format(
       "{} {} {} without friction{}. All collisions are elastic, and a counter reaches {}.",
-      bodies_of(bodies), bodies.system.bodies.size() == 1 ? "moves" : "move",
-      is_line ? "along a line" : "in a plane", place, reached(count));
+      bodies_of(system), system.bodies.size() == 1 ? "moves" : "move",
+      system.dimensions == 1 ? "along a line" : "in a plane", place, reached(count));
 }
 
 /// "the first 3 digits of π", "3.14"; empty if the run counts no digits of pi.
@@ -78,11 +77,10 @@ struct PiWords {
   std::string digits;
 };
 
-PiWords pi_words(const Scene& scene, const Integer& total) {
+PiWords pi_words(const Log& log, const Integer& total, int base) {
   constexpr std::size_t kMostOfPi = 40;
-  if (scene.bodies) return {};
-  const int base = scene.show.base;
-  std::string digits = counted_pi(scene.system, total, base);
+  if (!log.pair()) return {};
+  std::string digits = counted_pi(log.pair()->blocks(), total, base);
   if (digits.empty()) return {};
   const std::size_t count = total.get_str(base).size();
   std::string which = count == 1 ? "the first digit of π"
@@ -113,7 +111,7 @@ class CountWords {
     is_endless_ = is_endless(log);
     if (is_endless_) return;
     ending_ = ", after which there are no more";
-    const PiWords pi = pi_words(scene, most_);
+    const PiWords pi = pi_words(log, most_, scene.show.base);
     if (!pi.which.empty()) ending_ += ": " + pi.which;
     if (!pi.digits.empty()) ending_ += ", " + pi.digits;
   }
@@ -165,19 +163,17 @@ VideoCount video_count(const Scene& scene, const Log& log, const Schedule& sched
   return {at_end, is_known ? std::optional(log.last()) : std::nullopt, is_endless(log)};
 }
 
-std::string title_of(const Scene& scene, const VideoCount& count) {
+std::string title_of(const Scene& scene, const Log& log, const VideoCount& count) {
   if (std::string title = with_single_blanks(scene.show.title); !title.empty()) return title;
-  if (scene.bodies) {
-    return fmt::format("{}: {}", bodies_of(*scene.bodies), collisions(count.at_end));
-  }
-  return fmt::format("Masses {} and {}: {}", short_text(scene.system.blue.mass),
-                     short_text(scene.system.red.mass),
-                     all_collisions(*count.total, count.is_endless));
+  if (!log.pair()) return fmt::format("{}: {}", bodies_of(log.system()), collisions(count.at_end));
+  const BlockSystem& system = log.pair()->blocks();
+  return fmt::format("Masses {} and {}: {}", short_text(system.blue.mass),
+                     short_text(system.red.mass), all_collisions(*count.total, count.is_endless));
 }
 
-std::string describe_video(const Scene& scene, const VideoCount& count) {
-  if (scene.bodies) return describe_bodies(*scene.bodies, count);
-  const BlockSystem& system = scene.system;
+std::string describe_video(const Scene& scene, const Log& log, const VideoCount& count) {
+  if (!log.pair()) return describe_bodies(log.system(), count);
+  const BlockSystem& system = log.pair()->blocks();
   const int base = scene.show.base;
   const bool is_infinite = count.is_endless && count.at_end == count.total;
   std::string written =
@@ -185,18 +181,18 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
           ? ""
           : fmt::format(" It is written in base {}: {}.", base, count_text(count.at_end, base));
   const bool is_whole = count.at_end == count.total && !count.is_endless;
-  const PiWords pi = is_whole ? pi_words(scene, *count.total) : PiWords{};
+  const PiWords pi = is_whole ? pi_words(log, *count.total, base) : PiWords{};
   if (!pi.which.empty()) {
     written +=
         fmt::format(" The count has {}{}{}.", pi.which, pi.digits.empty() ? "" : ": ", pi.digits);
   }
   return fmt::format(
-      "Two blocks slide along a line without friction: the inner one, beside a wall on the left, "
-      "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. {}, "
-      "and "
-      "a counter reaches {}.{}",
-      short_text(system.blue.mass), short_text(system.red.mass), motion_words(system.blue),
-      motion_words(system.red), collision_words(system), reached(count), written);
+      "Two blocks slide along a line without friction: the inner one, beside a wall on the {}, has "
+      "mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. {}, and a "
+      "counter reaches {}.{}",
+      log.pair()->two_blocks().side > 0 ? "left" : "right", short_text(system.blue.mass),
+      short_text(system.red.mass), motion_words(system.blue), motion_words(system.red),
+      collision_words(system), reached(count), written);
 }
 
 std::string captions(const Scene& scene, const Log& log, const Schedule& schedule) {

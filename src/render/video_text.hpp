@@ -29,11 +29,11 @@ VideoCount video_count(const Scene& scene, const Log& log, const Schedule& sched
 std::int64_t frames_before_reversal(const Scene& scene, const Schedule& schedule);
 
 /// The scene's own title; without one, the masses and the count.
-std::string title_of(const Scene& scene, const VideoCount& count);
+std::string title_of(const Scene& scene, const Log& log, const VideoCount& count);
 
 /// A few sentences: who is there, how they move at first, what the counter says in the end; in
 /// which base, if it is not ten; which digits of pi it has counted, if it has counted some.
-std::string describe_video(const Scene& scene, const VideoCount& count);
+std::string describe_video(const Scene& scene, const Log& log, const VideoCount& count);
 
 /// WebVTT. A caption gives the exact count if that stays for a second or more, or is the film's
 /// highest. Other captions say "100 collisions or more", from the first frame that counts 1, 10,

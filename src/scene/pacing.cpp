@@ -78,8 +78,8 @@ std::optional<Middle> middle_of_bodies(const Log& log, const Span& span, const R
   return Middle{(from + to) / 2, shortest > 0 ? rate : HUGE_VAL};
 }
 
-std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Log& log,
-                                       const Rational& speed) {
+std::optional<Middle> middle_of_blocks(const CollisionLog& log, const Rational& speed) {
+  const BlockSystem& system = log.blocks();
   if (!is_elastic(system)) {
     const auto densest = InelasticMotion(system).densest();
     if (!densest) return std::nullopt;
@@ -93,8 +93,8 @@ std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Log& log
 
 std::vector<Move> automatic_windows(const Scene& scene, const Log& log, const Span& span) {
   const Rational speed = nominal_speed(scene);
-  const std::optional<Middle> middle = scene.bodies ? middle_of_bodies(log, span, speed)
-                                                    : middle_of_blocks(scene.system, log, speed);
+  const std::optional<Middle> middle =
+      log.pair() ? middle_of_blocks(*log.pair(), speed) : middle_of_bodies(log, span, speed);
   if (!middle) return {};
   std::vector<Rational> halves;
   int factor = 1;

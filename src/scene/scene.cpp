@@ -143,43 +143,38 @@ void check_show(const Show& show, SceneProblems& problems) {
   if (show.loupe) check_loupe(*show.loupe, problems);
 }
 
-void check_panels_of_blocks(const Show& show, SceneProblems& problems) {
-  problems.require(!show.has(Overlay::trails), "show.overlays",
-                   "'trails' is for a scene with [[body]]");
-  for (const Panel panel : {Panel::speeds, Panel::separation}) {
-    problems.require(std::ranges::count(show.panels, panel) == 0, "show.panels",
-                     "'{}' is for a scene with [[body]]", exact_text(panel));
-  }
-}
-
-/// What is there for two blocks and a wall alone.
-void check_bodies(const Scene& scene, SceneProblems& problems) {
-  constexpr const char* kReason =
-      "has {}, which needs two blocks and a fixed wall; leave it out, or leave out [[body]] and "
-      "wall.mass";
-  const auto reject = [&](bool is_there, const char* key, const std::string& what) {
-    if (is_there) problems.add(key, kReason, what);
-  };
-  problems.require(scene.bodies->styles.size() == scene.bodies->system.bodies.size(), "body",
-                   "must have one style for each body");
-  reject(scene.show.has(Overlay::digits), "show.overlays", "'digits'");
-  reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "a loupe");
-  const bool is_plane = scene.bodies->system.dimensions == 2;
-  problems.require(is_plane || !scene.show.has(Overlay::trails), "show.overlays",
+/// What is there for discs, for blocks, or for two blocks beside something immovable alone.
+void check_fits(const Scene& scene, const BodySystem& system, SceneProblems& problems) {
+  const Show& show = scene.show;
+  const bool is_plane = system.dimensions == 2;
+  problems.require(is_plane || !show.has(Overlay::trails), "show.overlays",
                    "'trails' is for discs; blocks have the diagram 'time'");
-  problems.require(!is_plane || !scene.show.has(Overlay::ruler), "show.overlays",
+  problems.require(!is_plane || !show.has(Overlay::ruler), "show.overlays",
                    "'ruler' is for blocks on a line");
-  for (const Panel panel : scene.show.panels) {
-    const bool is_there = panel == Panel::count || panel == Panel::speeds ||
-                          panel == (is_plane ? Panel::separation : Panel::time) ||
-                          (!is_plane && panel == Panel::conservation);
-    const char* const others =
-        is_plane ? "count, speeds and separation" : "time, count, conservation and speeds";
-    problems.require(is_there, "show.panels", "'{}' is not for {}, which have {}",
-                     exact_text(panel), is_plane ? "discs" : "bodies on a line", others);
+  const bool is_pair = !scene.bodies || two_blocks_of(system);
+  const auto require_pair = [&](bool is_there, const char* key, const std::string& what) {
+    problems.require(is_pair || !is_there, key,
+                     "has {}, which needs two blocks beside one wall or fixed block, and no more; "
+                     "leave it out",
+                     what);
+  };
+  require_pair(show.has(Overlay::digits), "show.overlays", "'digits'");
+  require_pair(show.loupe && show.loupe->is_on, "show.loupe", "a loupe");
+  for (const Panel panel : show.panels) {
+    const bool is_for_all = panel == Panel::count || panel == Panel::speeds;
+    const bool is_for_line = panel == Panel::time || panel == Panel::conservation;
+    if (panel == Panel::separation) {
+      problems.require(is_plane, "show.panels", "'separation' is for discs");
+    } else if (is_plane && !is_for_all) {
+      problems.add("show.panels", "'{}' is not for discs, which have count, speeds and separation",
+                   exact_text(panel));
+    } else if (!is_for_all && !is_for_line) {
+      require_pair(true, "show.panels", fmt::format("'{}'", exact_text(panel)));
+    }
   }
   const bool is_early = scene.time.from.is_time() && scene.time.from.offset < 0;
-  problems.require(!is_early, "time.from", "= {}: the motion of bodies begins at time 0",
+  problems.require(is_pair || !is_early, "time.from",
+                   "= {}: the motion of other bodies than two blocks and a wall begins at time 0",
                    scene.time.from.offset);
 }
 
@@ -236,14 +231,16 @@ Rational width_by_mass(const BlockSystem& system) {
 }
 
 std::vector<Problem> problems_of(const Scene& scene) {
-  SceneProblems problems(scene.bodies ? problems_of(scene.bodies->system)
-                                      : problems_of(scene.system));
+  const BodySystem system =
+      scene.bodies ? scene.bodies->system : two_blocks_of(scene.system).system;
+  SceneProblems problems(scene.bodies ? problems_of(system) : problems_of(scene.system));
   if (scene.bodies) {
-    check_bodies(scene, problems);
+    problems.require(scene.bodies->styles.size() == system.bodies.size(), "body",
+                     "must have one style for each body");
   } else {
-    check_panels_of_blocks(scene.show, problems);
     check_elastic(scene, problems);
   }
+  check_fits(scene, system, problems);
   check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);

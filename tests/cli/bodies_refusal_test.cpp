@@ -15,7 +15,8 @@ TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
   expect_line({"count", "meeting.toml", "--digits", "3"},
               "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
   expect_line({"still", "meeting.toml", "--at", "1", "--loupe", "auto", "-o", "a.png"},
-              "--loupe: show.loupe has a loupe, which" + why);
+              "--loupe: show.loupe has a loupe, which needs two blocks beside one wall or fixed "
+              "block, and no more; leave it out");
   EXPECT_EQ(entries(),
             (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));
 }

@@ -45,8 +45,8 @@ struct Drawing {
   explicit Drawing(const Scene& scene)
       : log(make_collision_log(scene.system)),
         bodies(bodies_of(scene)),
-        palette(palette_of(scene.view.theme)),
-        colors(colors_of(bodies, scene.view.theme, palette)),
+        colors(colors_of(bodies, scene.view.theme, &log->two_blocks())),
+        palette(palette_of(scene.view.theme, log->two_blocks(), colors)),
         sizes(scene.view),
         context{
             scene,  bodies, *log, palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)),
@@ -54,8 +54,8 @@ struct Drawing {
 
   std::unique_ptr<CollisionLog> log;
   Bodies bodies;
-  Palette palette;
   std::vector<BlockColors> colors;
+  Palette palette;
   Fonts fonts;
   Layout layout;
   Sizes sizes;

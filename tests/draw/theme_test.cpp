@@ -79,7 +79,7 @@ TEST(Theme, BodiesStandOutFromTheirGround) {
   for (const Theme theme : kThemes) {
     const Palette palette = palette_of(theme);
     Bodies bodies{{1, std::vector<Body>(12), {}}, std::vector<BodyStyle>(12)};
-    for (const Part& part : parts_of(palette, colors_of(bodies, theme, palette))) {
+    for (const Part& part : parts_of(palette, colors_of(bodies, theme, nullptr))) {
       // Filled areas with an edge may be pale.
       const bool is_pale = std::string(part.name) == "a block";
       if (is_pale) continue;
@@ -90,7 +90,7 @@ TEST(Theme, BodiesStandOutFromTheirGround) {
       const auto level = [&] { return static_cast<std::uint8_t>(random() % 256); };
       style.color = {level(), level(), level()};
     }
-    for (const BlockColors& body : colors_of(bodies, theme, palette)) {
+    for (const BlockColors& body : colors_of(bodies, theme, nullptr)) {
       EXPECT_GE(contrast(body.text, body.fill), 4.5) << exact_text(theme);
       EXPECT_GE(contrast(body.label, palette.background), 4.5) << exact_text(theme);
       EXPECT_GE(contrast(body.line, palette.background), 3) << exact_text(theme);
@@ -101,9 +101,8 @@ TEST(Theme, BodiesStandOutFromTheirGround) {
 
 TEST(Theme, NeighboursDifferWithoutColours) {
   for (const Theme theme : {Theme::print, Theme::colorblind}) {
-    const Palette palette = palette_of(theme);
     const Bodies bodies{{1, std::vector<Body>(12), {}}, std::vector<BodyStyle>(12)};
-    const std::vector<BlockColors> colors = colors_of(bodies, theme, palette);
+    const std::vector<BlockColors> colors = colors_of(bodies, theme, nullptr);
     for (std::size_t i = 1; i < colors.size(); ++i) EXPECT_NE(colors[i].bars, colors[i - 1].bars);
   }
 }
@@ -147,13 +146,22 @@ TEST(Theme, BlocksAreCalledByColoursThatTheyHave) {
 }
 
 TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
+  const auto name_of_red = [](Theme theme, const TwoBlocks& blocks, BodyStyle style = {}) {
+    const Bodies bodies{blocks.system, {style, {}, {}}};
+    return std::string(palette_of(theme, blocks, colors_of(bodies, theme, &blocks)).red.full_name);
+  };
   BlockSystem system = article_system(2);
-  EXPECT_EQ(palette_of(Theme::print, system).red.name, std::string("large"));
-  EXPECT_EQ(palette_of(Theme::print, system).blue.full_name, std::string("small block"));
+  EXPECT_EQ(name_of_red(Theme::print, two_blocks_of(system)), "large block");
   std::swap(system.red.mass, system.blue.mass);
-  EXPECT_EQ(palette_of(Theme::colorblind, system).red.name, std::string("small"));
-  EXPECT_EQ(palette_of(Theme::colorblind, article_system(1)).red.name, std::string("right"));
-  EXPECT_EQ(palette_of(Theme::lecture, system).red.name, std::string("red"));
+  EXPECT_EQ(name_of_red(Theme::colorblind, two_blocks_of(system)), "small block");
+  EXPECT_EQ(name_of_red(Theme::lecture, two_blocks_of(system)), "red");
+  TwoBlocks equal = two_blocks_of(article_system(1));
+  EXPECT_EQ(name_of_red(Theme::colorblind, equal), "right block");
+  equal.side = -1;
+  EXPECT_EQ(name_of_red(Theme::colorblind, equal), "left block");
+  EXPECT_EQ(name_of_red(Theme::lecture, equal), "red");
+  const BodyStyle green{std::array<std::uint8_t, 3>{0, 200, 0}, {}};
+  EXPECT_EQ(name_of_red(Theme::lecture, equal, green), "left block");
 }
 
 TEST(Theme, PrintIsGrey) {

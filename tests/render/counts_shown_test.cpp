@@ -188,8 +188,9 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
 
 TEST(CountsShown, AreRightInWords) {
   Scene scene = scene_of(article_system(3));
+  const auto log = log_of(scene);
   const auto sentence = [&](const Integer& at_end, const Integer& total) {
-    const std::string text = describe_video(scene, {at_end, total});
+    const std::string text = describe_video(scene, *log, {at_end, total});
     return text.substr(text.find("a counter"));
   };
   EXPECT_EQ(
@@ -219,7 +220,7 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
     const auto run = log_of(scene);
     const Integer total = run->last();
     return std::pair(captions(scene, *run, make_schedule(scene, *run)),
-                     describe_video(scene, {total, total}));
+                     describe_video(scene, *run, {total, total}));
   };
   for (const auto& [base, digits, words, pi] :
        {std::tuple{10, 1, "the first digit of π", "3"},
@@ -298,13 +299,13 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(7))), "7");
     const Integer before = log->last() - 1;
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
-    const std::string text = describe_video(scene, {log->last(), log->last(), true});
+    const std::string text = describe_video(scene, *log, {log->last(), log->last(), true});
     EXPECT_EQ(text.find("elastic"), std::string::npos) << text;
     EXPECT_TRUE(contains(text, "The coefficient of restitution is 0.5 between the blocks")) << text;
     EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both")) << text;
-    EXPECT_TRUE(contains(title_of(scene, {7, log->last(), true}), "infinitely many")) << text;
+    EXPECT_TRUE(contains(title_of(scene, *log, {7, log->last(), true}), "infinitely many")) << text;
     scene.show.base = 2;
-    EXPECT_FALSE(contains(describe_video(scene, {log->last(), log->last(), true}), "base"));
+    EXPECT_FALSE(contains(describe_video(scene, *log, {log->last(), log->last(), true}), "base"));
     scene.show.base = 10;
     scene.time.to = Rational(9);
     const std::string said = captions(scene, *log, make_schedule(scene, *log));

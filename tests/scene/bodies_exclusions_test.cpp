@@ -34,11 +34,12 @@ TEST_F(BodiesFile, KeysOfBlocksAreNotForBodies) {
   }
 }
 
+const std::string kNeedsPair =
+    ", which needs two blocks beside one wall or fixed block, and no more; leave it out";
+
 TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   const std::string body = "[[body]]\nposition = 1\n";
-  const std::string why =
-      ", which needs two blocks and a fixed wall; leave it out, or leave out [[body]] and "
-      "wall.mass";
+  const std::string& why = kNeedsPair;
   for (const char* loupe : {"auto", "1:2:10"}) {
     expect_problem(body + "[show]\nloupe = '" + loupe + "'\n", "4: show.loupe has a loupe" + why);
   }
@@ -47,40 +48,48 @@ TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   EXPECT_TRUE(problems(body + "[show]\noverlays = ['ruler']\n").empty());
   expect_problem("[[body]]\nposition = [1, 0]\n[show]\noverlays = ['ruler']\n",
                  "4: show.overlays 'ruler' is for blocks on a line");
-  expect_problem(body + "[time]\nfrom = -1\n",
-                 "4: time.from = -1: the motion of bodies begins at time 0");
+  expect_problem(
+      body + "[time]\nfrom = -1\n",
+      "4: time.from = -1: the motion of other bodies than two blocks and a wall begins at "
+      "time 0");
   expect_problem(body + "[show]\noverlays = ['trails']\n",
                  "4: show.overlays 'trails' is for discs; blocks have the diagram 'time'");
   expect_problem("[show]\noverlays = ['trails']\n",
-                 "2: show.overlays 'trails' is for a scene with [[body]]");
+                 "2: show.overlays 'trails' is for discs; blocks have the diagram 'time'");
 }
 
-TEST_F(BodiesFile, DiagramsAreOfOneKindOfRun) {
+TEST_F(BodiesFile, DiagramsAreForWhatTheyCanShow) {
   const std::vector<std::string> all = {"velocity",  "position", "unfolded",  "time",
                                         "count",     "ellipse",  "mirrors",   "conservation",
                                         "certainty", "speeds",   "separation"};
   const std::string line = "[[body]]\nposition = 1\nvelocity = 1\n[[body]]\nposition = 3\n";
+  const std::string pair = line + "[[body]]\nposition = 7\nmass = 'inf'\n";
   const std::string plane =
       "[[body]]\nposition = [1, 0]\nvelocity = [1, 0]\n[[body]]\nposition = [4, 0]\n";
   for (const std::string& panel : all) {
+    SCOPED_TRACE(panel);
     const std::string show = "[show]\npanels = ['" + panel + "']\n";
-    const bool is_general = panel == "count" || panel == "speeds";
-    if (is_general || panel == "time" || panel == "conservation") {
-      EXPECT_TRUE(problems(show + line).empty()) << panel;
-    } else {
-      expect_problem(show + line, "2: show.panels '" + panel +
-                                      "' is not for bodies on a line, which have time, count, "
-                                      "conservation and speeds");
+    const bool is_for_all = panel == "count" || panel == "speeds";
+    if (panel == "separation") {
+      for (const std::string& blocks : {std::string(), line, pair}) {
+        expect_problem(show + blocks, "2: show.panels 'separation' is for discs");
+      }
+      EXPECT_TRUE(problems(show + plane).empty());
+      continue;
     }
-    if (is_general || panel == "separation") {
-      EXPECT_TRUE(problems(show + plane).empty()) << panel;
+    EXPECT_TRUE(problems(show).empty());
+    EXPECT_TRUE(problems(show + pair).empty());
+    if (is_for_all || panel == "time" || panel == "conservation") {
+      EXPECT_TRUE(problems(show + line).empty());
+    } else {
+      expect_problem(show + line, "2: show.panels has '" + panel + "'" + kNeedsPair);
+    }
+    if (is_for_all) {
+      EXPECT_TRUE(problems(show + plane).empty());
     } else {
       expect_problem(show + plane, "2: show.panels '" + panel +
                                        "' is not for discs, which have count, speeds and "
                                        "separation");
-    }
-    if (panel == "speeds" || panel == "separation") {
-      expect_problem(show, "2: show.panels '" + panel + "' is for a scene with [[body]]");
     }
   }
 }

@@ -183,8 +183,8 @@ TEST_F(BodiesFile, EveryProblemIsToldAtOnce) {
       ":1: body 1.mass = -1: must be greater than 0",
       ":4: body 1.velocity = x: not a number such as 16, 2.5, 1/3 or 1e6",
       ":5: body 2.position: is missing", ":5: body 2.width = 0: must be greater than 0",
-      ":8: show.panels 'velocity' is not for bodies on a line, which have time, count, "
-      "conservation and speeds"};
+      ":8: show.panels has 'velocity', which needs two blocks beside one wall or fixed block, and "
+      "no more; leave it out"};
   std::vector<std::string> sorted;
   for (const std::string& line : found) sorted.push_back(line.substr(path_.size()));
   std::ranges::sort(sorted);

@@ -27,7 +27,9 @@ constexpr long kMostPower = 300;
 constexpr double kMaxInsetHeightRatio = 1.6;
 
 bool shows_wall(const DrawingContext& context) {
-  return seen_walls(context.bodies.system, context.scene.view).left.has_value();
+  const auto& [low, high] = context.scene.view.x;
+  const Rational& face = context.two_blocks().blocks().wall_face;
+  return context.two_blocks().two_blocks().side > 0 && low <= face && face < high;
 }
 
 std::optional<Loupe> loupe_of(const Scene& scene) {
@@ -114,8 +116,9 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   if (!shows_wall(context)) {
     if (!is_asked_for) return nullptr;
     throw UsageError(
-        "show.loupe: the loupe enlarges the gap at the wall, and the view does not show the wall; "
-        "let view.x begin at or below wall.face and end above it, or leave the loupe out");
+        "show.loupe: the loupe enlarges the gap at a wall on the left, and the view shows none; "
+        "let "
+        "view.x begin at or below the wall's face and end above it, or leave the loupe out");
   }
   const bool is_small = gap_px < style::kMaxLoupeGap * context.sizes.short_side;
   if (!is_asked_for && !is_small) return nullptr;
@@ -134,7 +137,8 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
 }
 
 LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double least_gap_px)
-    : sizes_(context.sizes),
+    : blocks_(context.two_blocks().two_blocks()),
+      sizes_(context.sizes),
       palette_(context.palette),
       face_(context.font.face()),
       scale_(context.layout.scale),
@@ -181,7 +185,7 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   const double room =
       floor_px_ - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
   const double taller = std::round(std::min(kBlocksHeight * short_side, room));
-  const double ratio = std::clamp(layout.height_px(1) / layout.height_px(0),
+  const double ratio = std::clamp(layout.height_px(blocks_.red) / layout.height_px(blocks_.blue),
                                   1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
   blue_height_px_ = std::round(taller / std::max(1.0, ratio));
   red_height_px_ = std::round(taller * std::min(1.0, ratio));

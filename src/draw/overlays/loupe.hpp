@@ -64,6 +64,7 @@ class LoupeInset {
   void add_blue(double x_px, double seen, std::vector<DrawItem>& items) const;
   void add_zoom(double zoomed, const Color& color, std::vector<DrawItem>& items) const;
 
+  TwoBlocks blocks_;
   Sizes sizes_;
   Palette palette_;
   Face face_;

@@ -48,7 +48,7 @@ double LoupeInset::zoom(double gap) const {
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const Rectangle red = stage_.at(1, shown);
+  const Rectangle red = stage_.at(blocks_.red, shown);
   // By whole pixels, they stay as they are while red hardly moves.
   const Point from{std::round(red.x + kLinesInRed * red.width), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
@@ -98,9 +98,12 @@ void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
     return contact_of(face_px_ + gap * px_per_unit + blue_width_px_, floor_px_, blue_height_px_,
                       red_height_px_, palette_.red.line);
   };
+  const auto is_of_blocks = [&](const Hit& hit) {
+    return hit.pair[0] == blocks_.red || hit.pair[1] == blocks_.red;
+  };
   for (std::size_t n = 0; n < shown.hits.size(); ++n) {
     const Hit& hit = shown.hits[n];
-    marks_->add_arc(nth(ItemId::hits, n), hit.age_s, hit.pair[1] == 1 ? blocks(hit.gaps.y2) : wall,
+    marks_->add_arc(nth(ItemId::hits, n), hit.age_s, is_of_blocks(hit) ? blocks(hit.gaps.y2) : wall,
                     items);
   }
   marks_->add_glow(shown.hits_per_s, std::array{wall, blocks(shown.gaps.y2)}, items);

@@ -171,6 +171,7 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
     return fmt::format("Energy{}: {} {} + {} {} = {}", scale.unit, red_name, scale.text(red),
                        blue_name, scale.text(blue), scale.text(both));
   };
+  const TwoBlocks& blocks = context.two_blocks().two_blocks();
   // A body's velocity if it had all the energy. It may be beyond the range of a double.
   const auto fastest = [&](std::size_t i) {
     return root_of(2 * exact_sum / *system.bodies[i].mass);
@@ -179,11 +180,11 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
     const double share = most > 0 ? mpf_class(body.velocity[0] / most).get_d() : 0;
     return sum * std::min(1.0, share * share);
   };
-  const auto shown_text = [=, most_of_blue = fastest(0), most_of_red = fastest(1),
-                           is_kept =
-                               is_elastic(context.two_blocks().blocks())](const FrameState& shown) {
-    const double red = energy(shown.state.bodies[1], most_of_red);
-    const double blue = is_kept ? sum - red : energy(shown.state.bodies[0], most_of_blue);
+  const auto shown_text = [=, inner = blocks.blue, outer = blocks.red,
+                           most_of_blue = fastest(blocks.blue), most_of_red = fastest(blocks.red),
+                           is_kept = is_elastic(blocks.blocks)](const FrameState& shown) {
+    const double red = energy(shown.state.bodies[outer], most_of_red);
+    const double blue = is_kept ? sum - red : energy(shown.state.bodies[inner], most_of_blue);
     return text(red, blue, is_kept ? sum : red + blue);
   };
   return {"energy", text(sum, sum, sum), shown_text, context.palette.text};
@@ -199,7 +200,10 @@ class Momenta {
         scale_(root_magnitude_of(most_squared_), digits),
         most_(scale_.largest.mantissa *
               (scale_.is_plain ? to_double(power_of_ten(scale_.largest.exponent)) : 1)) {
-    if (has_names(context)) names_ = {context.palette.blue.name, context.palette.red.name};
+    if (has_names(context)) {
+      names_ = {context.palette.blue.name, context.palette.red.name};
+      named_ = {context.two_blocks().two_blocks().blue, context.two_blocks().two_blocks().red};
+    }
     for (const Body& body : system_.bodies) factors_.push_back(factor_of(body.mass.value_or(0)));
     for (const std::size_t axis : {0U, 1U}) {
       if (!is_kept(axis)) continue;
@@ -213,7 +217,7 @@ class Momenta {
   std::string operator()(const FrameState& shown) const {
     const std::vector<BodyMotion>& bodies = shown.state.bodies;
     std::vector<double> each;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
+    for (const std::size_t i : named_) {
       each.push_back(mpf_class(factors_[i] * bodies[i].velocity[0]).get_d());
     }
     std::array<double, 2> sum{};
@@ -272,6 +276,7 @@ class Momenta {
   Scale scale_;
   double most_;
   std::vector<const char*> names_;  ///< of the bodies if the momentum of each is shown
+  std::vector<std::size_t> named_;  ///< the bodies that have them
   std::vector<mpf_class> factors_;  ///< from a velocity to a momentum
   std::array<std::optional<double>, 2> kept_;
 };
@@ -313,7 +318,8 @@ std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
   if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
   if (show.has(Overlay::energy)) read_outs.push_back(fitted(context, energy_read_out));
   if (show.has(Overlay::momentum)) read_outs.push_back(fitted(context, momentum_read_out));
-  if (context.log.pair() != nullptr || !has_span(context.scene, context.log)) return read_outs;
+  // Two blocks are always certain.
+  if (context.pair() != nullptr || !has_span(context.scene, context.log)) return read_outs;
   const Span span = span_of(context.scene, context.log);
   if (const std::optional<double> until = context.log.certain_until(span.to)) {
     read_outs.push_back(certainty_read_out(context, *until));

@@ -142,7 +142,8 @@ class TimePanel {
  public:
   TimePanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of_time(context)),
-        wedge_(context.two_blocks().blocks()),
+        blocks_(context.two_blocks().two_blocks()),
+        wedge_(blocks_.blocks),
         axis_(context, diagram_, 0) {
     const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));
     const auto pieces = trajectory_of(context.two_blocks(), wedge_, axis_.span(), columns);
@@ -172,7 +173,7 @@ class TimePanel {
     items.emplace_back(diagram_.item());
     const double time = to_double(shown.time);
     if (!axis_.shows(time)) return;
-    const Gaps gaps = wedge_.gaps_of(blocks_state(shown.state));
+    const Gaps gaps = wedge_.gaps_of(blocks_state(shown.state, blocks_));
     const Point red = at(time, gaps.y2);
     items.emplace_back(axis_.cursor(diagram_, 0, red));
     items.emplace_back(diagram_.dot(1, red, diagram_.palette().red.line));
@@ -229,6 +230,7 @@ class TimePanel {
   }
 
   Diagram diagram_;
+  TwoBlocks blocks_;
   GapWedge wedge_;
   TimeAxis axis_;
   double top_ = 0;  ///< red's greatest gap

@@ -53,6 +53,7 @@ class VelocityPanel {
   VelocityPanel(const DrawingContext& context, const PanelPlace& place,
                 const std::vector<Formula>& titles, bool is_ellipse_first)
       : diagram_(context, place, titles),
+        blocks_(context.two_blocks().two_blocks()),
         points_(context.scene, context.two_blocks()),
         figure_(context, diagram_, points_),
         is_ellipse_first_(is_ellipse_first) {
@@ -67,12 +68,13 @@ class VelocityPanel {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const double share = is_ellipse_first_ ? morphed_share(shown.video_s) : 1;
+    const BlockState state = blocks_state(shown.state, blocks_);
     if (share == 1) {
-      add(circle_, 1, blocks_state(shown.state), items);
+      add(circle_, 1, state, items);
     } else if (share == 0) {
-      add(ellipse_, 0, blocks_state(shown.state), items);
+      add(ellipse_, 0, state, items);
     } else {
-      add(figure_items(share), share, blocks_state(shown.state), items);
+      add(figure_items(share), share, state, items);
     }
   }
 
@@ -196,6 +198,7 @@ class VelocityPanel {
   }
 
   Diagram diagram_;
+  TwoBlocks blocks_;
   VelocityPoints points_;
   VelocityFigure figure_;
   bool is_ellipse_first_;
