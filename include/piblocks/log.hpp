@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -149,8 +150,9 @@ class Log {
 /// Two blocks and one wall or immovable block beside them are in closed form. All others are
 /// stepped and stored. Nothing is stepped yet.
 /// @param horizon  the time until which collisions count where they may never end, >= 0
+/// @param stop     from when it asks to stop on, members that have to step throw Interrupted
 /// @throws SceneError if problems_of(system) is not empty; UsageError if the horizon is negative.
-std::unique_ptr<Log> make_log(const BodySystem& system,
-                              const std::optional<Rational>& horizon = {});
+std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon = {},
+                              const std::stop_token& stop = {});
 
 }  // namespace piblocks

@@ -56,18 +56,20 @@ Integer Log::first_since(const Rational& time) const {
   return last + 1;
 }
 
-std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon) {
+std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon,
+                              const std::stop_token& stop) {
   require_valid(problems_of(system));
-  return make_log_of_valid(system, horizon);
+  return make_log_of_valid(system, horizon, stop);
 }
 
 std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
-                                       const std::optional<Rational>& horizon) {
+                                       const std::optional<Rational>& horizon,
+                                       const std::stop_token& stop) {
   if (const std::optional<TwoBlocks> blocks = two_blocks_of(system)) {
     return make_collision_log(*blocks);
   }
   if (horizon) require_not_negative(*horizon);
-  return make_stored_body_log(system, horizon);
+  return make_stored_body_log(system, horizon, stop);
 }
 
 }  // namespace piblocks

@@ -8,6 +8,7 @@
 #include <shared_mutex>
 #include <utility>
 
+#include "core/stop.hpp"
 #include "physics/blocks.hpp"
 #include "physics/body_logs.hpp"
 #include "physics/body_stepper.hpp"
@@ -53,8 +54,9 @@ double crossing_time(const BodySystem& system) {
 /// Steps are computed when they are first asked for, and stay.
 class StoredBodyLog final : public Log {
  public:
-  StoredBodyLog(const BodySystem& system, std::optional<Rational> horizon)
+  StoredBodyLog(const BodySystem& system, std::optional<Rational> horizon, std::stop_token stop)
       : Log(system),
+        stop_(std::move(stop)),
         stepper_(system.dimensions == 1 ? make_line_stepper(system) : make_disc_stepper(system)),
         start_(motions_at_start(system)),
         never_ends_(may_never_end(system)),
@@ -221,7 +223,10 @@ class StoredBodyLog final : public Log {
     const std::unique_lock lock(mutex_);
     if (failure_) std::rethrow_exception(failure_);
     try {
-      while (!is_computed()) add_step();
+      while (!is_computed()) {
+        check_stop(stop_);
+        add_step();
+      }
     } catch (...) {
       failure_ = std::current_exception();  // the engine cannot go on from here
       throw;
@@ -302,6 +307,7 @@ class StoredBodyLog final : public Log {
     return step < exact_times_.size() ? exact_times_[step] : to_rational(steps_[step].time);
   }
 
+  std::stop_token stop_;
   mutable std::shared_mutex mutex_;
   std::unique_ptr<BodyStepper> stepper_;
   std::vector<BodyMotion> start_;
@@ -319,8 +325,9 @@ class StoredBodyLog final : public Log {
 }  // namespace
 
 std::unique_ptr<Log> make_stored_body_log(const BodySystem& system,
-                                          const std::optional<Rational>& horizon) {
-  return std::make_unique<StoredBodyLog>(system, horizon);
+                                          const std::optional<Rational>& horizon,
+                                          const std::stop_token& stop) {
+  return std::make_unique<StoredBodyLog>(system, horizon, stop);
 }
 
 }  // namespace piblocks

@@ -138,7 +138,7 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   check_bundle(job);
   if (!job.overwrite) check_names(*job.bundle);
-  const Film film = film_of(job);
+  const Film film = film_of(job, stop);
   const FilmSegment& segment = *film.scene();
   const FilmRun& shown = segment.runs().front();
   const Scene& scene = shown.scene();

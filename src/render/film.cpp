@@ -33,9 +33,9 @@ std::size_t longest(const std::vector<std::unique_ptr<Log>>& logs) {
   return found;
 }
 
-FilmSegment made_from(const Segment& segment, const View& view, FilmUse use) {
-  if (const auto* card = std::get_if<Card>(&segment.content)) return {*card, view, use};
-  return {std::get<Scenes>(segment.content), segment.split, view, use};
+FilmSegment made_from(const Segment& segment, const View& view, const FilmMaking& making) {
+  if (const auto* card = std::get_if<Card>(&segment.content)) return {*card, view, making};
+  return {std::get<Scenes>(segment.content), segment.split, view, making};
 }
 
 std::string place_of(const Storyboard& story, std::size_t segment) {
@@ -139,18 +139,19 @@ std::shared_ptr<const Image> read_logo(const Scene& scene) {
   return std::make_shared<const Image>(read_png(scene.show.logo));
 }
 
-FilmSegment::FilmSegment(const Scene& scene, FilmUse use) { show_one(scene, use); }
+FilmSegment::FilmSegment(const Scene& scene, const FilmMaking& making) { show_one(scene, making); }
 
-FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film, FilmUse use) {
+FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film,
+                         const FilmMaking& making) {
   if (scenes.size() == 1) {
-    show_one(with_film_view(scenes.front(), film), use);
+    show_one(with_film_view(scenes.front(), film), making);
   } else {
-    compare(scenes, split, film, use);
+    compare(scenes, split, film, making);
   }
 }
 
-FilmSegment::FilmSegment(const Card& card, const View& film, FilmUse use) {
-  if (use == FilmUse::pictures) card_ = compose_card(card.lines, film);
+FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& making) {
+  if (making.use == FilmUse::pictures) card_ = compose_card(card.lines, film);
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > to_integer(kMaxFrames)) {
     throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
@@ -159,17 +160,18 @@ FilmSegment::FilmSegment(const Card& card, const View& film, FilmUse use) {
   frame_count_ = frames.get_si();
 }
 
-void FilmSegment::show_one(Scene scene, FilmUse use) {
-  std::unique_ptr<Log> log = log_of(scene);
+void FilmSegment::show_one(Scene scene, const FilmMaking& making) {
+  std::unique_ptr<Log> log = log_of(scene, making.stop);
   schedule_ = make_schedule(scene, *log);
   frame_count_ = film_frames(*schedule_);
-  runs_.emplace_back(std::move(scene), std::move(log), use);
+  runs_.emplace_back(std::move(scene), std::move(log), making.use);
 }
 
-void FilmSegment::compare(const Scenes& scenes, Split split, const View& film, FilmUse use) {
+void FilmSegment::compare(const Scenes& scenes, Split split, const View& film,
+                          const FilmMaking& making) {
   split_.emplace(film, scenes.size(), split);
   std::vector<std::unique_ptr<Log>> logs;
-  for (const Scene& scene : scenes) logs.push_back(log_of(scene));
+  for (const Scene& scene : scenes) logs.push_back(log_of(scene, making.stop));
   const std::size_t leader = longest(logs);
   const Scene leading = with_film_view(scenes[leader], film);
   schedule_ = make_schedule(leading, *logs[leader]);
@@ -184,7 +186,7 @@ void FilmSegment::compare(const Scenes& scenes, Split split, const View& film, F
     scene.time.to = span.to;
     scene.time.speed = leading.time.speed;
     scene.pacing = leading.pacing;
-    runs_.emplace_back(std::move(scene), std::move(logs[i]), use);
+    runs_.emplace_back(std::move(scene), std::move(logs[i]), making.use);
   }
 }
 
@@ -203,26 +205,26 @@ DrawList FilmSegment::frame(std::int64_t number) const {
   return split_->compose(std::move(pictures));
 }
 
-Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
+Film::Film(const Script& script, const FilmMaking& making) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
     require_valid(problems_of(*scene));
     is_scene_ = true;
-    segments_.push_back({FilmSegment(*scene, use)});
+    segments_.push_back({FilmSegment(*scene, making)});
     frame_count_ = segments_.front().segment.frame_count();
     return;
   }
   const auto& story = std::get<Storyboard>(script);
   std::vector<std::string> problems = problems_of(story);
   if (!problems.empty()) throw SceneError(std::move(problems));
-  add_segments(story, use);
+  add_segments(story, making);
   place_segments(story);
 }
 
-void Film::add_segments(const Storyboard& story, FilmUse use) {
+void Film::add_segments(const Storyboard& story, const FilmMaking& making) {
   std::vector<std::string> problems;
   for (std::size_t i = 0; i < story.segments.size(); ++i) {
     try {
-      segments_.push_back({made_from(story.segments[i], view_, use)});
+      segments_.push_back({made_from(story.segments[i], view_, making)});
     } catch (const UsageError& error) {
       for (const std::string& problem : error.problems()) {
         problems.push_back(fmt::format("{}: {}", place_of(story, i), problem));

@@ -31,6 +31,11 @@ namespace piblocks {
 /// called.
 enum class FilmUse : std::uint8_t { pictures, audio_only };
 
+struct FilmMaking {
+  FilmUse use = FilmUse::pictures;
+  std::stop_token stop = {};  ///< ends the computing of collisions, as in make_log()
+};
+
 /// A scene, its collisions, and what its frames are composed by. Const members are thread-safe.
 class FilmRun {
  public:
@@ -72,9 +77,9 @@ std::shared_ptr<const Image> read_logo(const Scene& scene);
 class FilmSegment {
  public:
   /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
-  FilmSegment(const Scene& scene, FilmUse use);
-  FilmSegment(const Scenes& scenes, Split split, const View& film, FilmUse use);
-  FilmSegment(const Card& card, const View& film, FilmUse use);
+  FilmSegment(const Scene& scene, const FilmMaking& making);
+  FilmSegment(const Scenes& scenes, Split split, const View& film, const FilmMaking& making);
+  FilmSegment(const Card& card, const View& film, const FilmMaking& making);
   FilmSegment(FilmSegment&&) = default;
   FilmSegment& operator=(FilmSegment&&) = default;
   FilmSegment(const FilmSegment&) = delete;
@@ -93,8 +98,8 @@ class FilmSegment {
   const Schedule* schedule() const noexcept { return schedule_ ? &*schedule_ : nullptr; }
 
  private:
-  void show_one(Scene scene, FilmUse use);
-  void compare(const Scenes& scenes, Split split, const View& film, FilmUse use);
+  void show_one(Scene scene, const FilmMaking& making);
+  void compare(const Scenes& scenes, Split split, const View& film, const FilmMaking& making);
 
   std::int64_t frame_count_ = 0;
   std::vector<FilmRun> runs_;
@@ -115,8 +120,9 @@ struct PlacedSegment {
 class Film {
  public:
   /// @throws SceneError if problems_of() what it is made from is not empty; UsageError if a fade is
-  ///         not shorter than its segments, or as FilmSegment; SimulationError, DrawError
-  explicit Film(const Script& script, FilmUse use = FilmUse::pictures);
+  ///         not shorter than its segments, or as FilmSegment; SimulationError, DrawError,
+  ///         Interrupted
+  explicit Film(const Script& script, const FilmMaking& making = {});
 
   const View& view() const noexcept { return view_; }
   std::int64_t frame_count() const noexcept { return frame_count_; }
@@ -130,7 +136,7 @@ class Film {
   }
 
  private:
-  void add_segments(const Storyboard& story, FilmUse use);
+  void add_segments(const Storyboard& story, const FilmMaking& making);
   void place_segments(const Storyboard& story);
 
   View view_;

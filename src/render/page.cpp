@@ -121,7 +121,7 @@ bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop) {
   check_page(job);
-  const Film film = film_of(job);
+  const Film film = film_of(job, stop);
   const fs::path path = follow_links(job.output);
   FileSet files(path.parent_path(), path.filename(), Unfinished::Sharing::shared);
   OutputFile page(files.add(path.filename()));

@@ -116,7 +116,7 @@ void References::draw(
     const std::function<void(std::int64_t frame, std::vector<std::uint8_t> png)>& use,
     const std::stop_token& stop) const {
   if (frames.empty()) return;
-  const Film film(script_);
+  const Film film(script_, {FilmUse::pictures, stop});
   const View& view = view_of(script_);
   Canvas canvas(view.width_px, view.height_px, view.background);
   canvas.listen(stop);
@@ -132,7 +132,7 @@ void References::render_into(const fs::path& folder, int jobs, const OnProgress&
   const std::vector<std::string> names = files();
   const fs::path hashes = folder / names.front();
   const RenderJob job{script_, hashes, {}, jobs};
-  const Film film = film_of(job);
+  const Film film = film_of(job, stop);
   render_film(job, film, on_progress, stop);
   add_fingerprint(hashes);
   for (std::size_t i = 0; i < golden().frames.size(); ++i) {

@@ -179,9 +179,10 @@ void add(StepSeconds& sum, const StepSeconds& spent) {
 
 }  // namespace
 
-Film film_of(const RenderJob& job) {
+Film film_of(const RenderJob& job, const std::stop_token& stop) {
   check_shard(job);
-  return Film(job.script, is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures);
+  return Film(job.script,
+              {is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures, stop});
 }
 
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
@@ -263,7 +264,7 @@ Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);
-  return render_film(job, film_of(job), on_progress, stop);
+  return render_film(job, film_of(job, stop), on_progress, stop);
 }
 
 }  // namespace

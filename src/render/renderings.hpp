@@ -22,7 +22,7 @@ namespace piblocks {
 
 /// The film of a job, which is made once: its runs are simulated then.
 /// @throws UsageError if the job asks for a part and has none; as Film()
-Film film_of(const RenderJob& job);
+Film film_of(const RenderJob& job, const std::stop_token& stop);
 
 /// render() of a job that is neither a bundle nor a page. @param film  of the job
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
@@ -52,8 +52,9 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
 /// What render_still() draws: for a scene what FilmRun::stills() draws, for a storyboard the frame
 /// that frame_at() finds.
 /// @throws SceneError if problems_of() the script is not empty; UsageError, DrawError, MediaError,
-///         SimulationError
-DrawList still_picture(const Script& script, const Instant& instant);
+///         SimulationError, Interrupted
+DrawList still_picture(const Script& script, const Instant& instant,
+                       const std::stop_token& stop = {});
 
 /// The same of a film that is there.
 DrawList still_picture(const Film& film, const Instant& instant);

@@ -53,9 +53,9 @@ void write_picture(OutputFile& file, const Bytes& picture, const std::stop_token
   file.finish();
 }
 
-FilmRun run_of(const Scene& scene) {
+FilmRun run_of(const Scene& scene, const std::stop_token& stop) {
   require_valid(problems_of(scene));
-  return {scene, log_of(scene), FilmUse::pictures};
+  return {scene, log_of(scene, stop), FilmUse::pictures};
 }
 
 DrawList picture_of(const FilmRun& run, const Instant& instant) {
@@ -177,18 +177,18 @@ DrawList still_picture(const Film& film, const Instant& instant) {
   return film.frame(frame_at(film, instant));
 }
 
-DrawList still_picture(const Script& script, const Instant& instant) {
+DrawList still_picture(const Script& script, const Instant& instant, const std::stop_token& stop) {
   // No film is made of a scene: a still may show what no film can.
   const auto* const scene = std::get_if<Scene>(&script);
-  return scene != nullptr ? picture_of(run_of(*scene), instant)
-                          : still_picture(Film(script), instant);
+  return scene != nullptr ? picture_of(run_of(*scene, stop), instant)
+                          : still_picture(Film(script, {FilmUse::pictures, stop}), instant);
 }
 
 void render_still(const Script& script, const Instant& instant, const std::string& output,
                   const std::stop_token& stop) {
   Draw* const draw = drawing_for(output, draw_png, "still", ".png, .svg, .pdf");
   OutputFile file(output);
-  write_picture(file, draw(still_picture(script, instant), stop), stop);
+  write_picture(file, draw(still_picture(script, instant, stop), stop), stop);
 }
 
 std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
@@ -200,7 +200,7 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants,
                                              const OnProgress& on_progress,
                                              const std::stop_token& stop) {
-  return pictures_of(run_of(scene), instants, on_progress, stop);
+  return pictures_of(run_of(scene, stop), instants, on_progress, stop);
 }
 
 void render_sheet(const Scene& scene, const SheetInstants& instants, const std::string& output,
@@ -208,7 +208,7 @@ void render_sheet(const Scene& scene, const SheetInstants& instants, const std::
   Draw* const draw = drawing_for(output, draw_page_png, "sheet", ".pdf, .png, .svg");
   const auto* const named = std::get_if<std::vector<Instant>>(&instants);
   if (named != nullptr) check_count(named->size());
-  const FilmRun run = run_of(scene);
+  const FilmRun run = run_of(scene, stop);
   OutputFile file(output);
   std::vector<CaptionedPicture> pictures = pictures_of(
       run, named != nullptr ? *named : spread_over(scene, run.log(), std::get<Spread>(instants)),

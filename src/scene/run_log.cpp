@@ -9,12 +9,12 @@
 
 namespace piblocks {
 
-std::unique_ptr<Log> log_of(const Scene& scene) {
+std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop) {
   if (!scene.bodies) return make_collision_log(scene.system);
   const bool is_time = scene.time.to.is_time();
   return make_log(
       scene.bodies->system,
-      is_time ? std::optional(std::max(scene.time.to.offset, Rational(0))) : std::nullopt);
+      is_time ? std::optional(std::max(scene.time.to.offset, Rational(0))) : std::nullopt, stop);
 }
 
 void require_certain(const Scene& scene, const Log& log, const std::optional<Rational>& time) {

@@ -6,14 +6,15 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 namespace piblocks {
 
 /// Nothing is computed yet. Where collisions may never end, those until scene.time.to count, if
 /// that is a time.
-/// @throws as make_log()
-std::unique_ptr<Log> log_of(const Scene& scene);
+/// @param stop  as make_log(). @throws as make_log()
+std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop = {});
 
 /// @param time  nothing for the whole run
 /// @throws UsageError if bodies are not certain until this time, unless the scene allows that.

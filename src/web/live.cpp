@@ -169,7 +169,7 @@ std::optional<std::string> LiveScript::state(const Place& place) const {
   return cli::state_text(time, log.pair()->blocks_at(time), cli::infinite_count(log));
 }
 
-LiveSound::LiveSound(const Script& script) : film_(script, FilmUse::audio_only) {}
+LiveSound::LiveSound(const Script& script) : film_(script, {FilmUse::audio_only}) {}
 
 LiveSound::~LiveSound() = default;
 

@@ -3,6 +3,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/log.hpp>
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -145,6 +146,16 @@ TEST(LazyLog, TiesAreSeenAtTimesThatAreNoBinaryFractions) {
   EXPECT_EQ(make_log(system)->last(), 3);
   EXPECT_THROW(make_log(system)->time_after(1), UsageError);
   EXPECT_THROW(make_log(system)->time_after(2), UsageError);
+}
+
+TEST(LazyLog, StopsWhenItIsAsked) {
+  BodySystem box{1, {{1, {5}, {1}, 1}}, {{"left", {0}, {1}}, {"right", {10}, {-1}}}};
+  std::stop_source source;
+  const auto log = make_log(box, std::nullopt, source.get_token());
+  EXPECT_EQ(log->count_at(100), 11);
+  source.request_stop();
+  EXPECT_EQ(log->count_at(90), 10) << "what is known stays known";
+  EXPECT_THROW(log->count_at(1'000'000), Interrupted);
 }
 
 TEST(LazyLog, RejectsWhatIsNoSystem) {

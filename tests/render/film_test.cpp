@@ -100,7 +100,7 @@ TEST_F(FilmTest, PartsFollowEachOther) {
 TEST_F(FilmTest, OfASceneIsTheScene) {
   const Script script = read("digits = 2");
   const Film made(script);
-  const FilmSegment part(std::get<Scene>(script), FilmUse::pictures);
+  const FilmSegment part(std::get<Scene>(script), FilmMaking{});
   ASSERT_EQ(made.segments().size(), 1U);
   EXPECT_EQ(made.frame_count(), part.frame_count());
   EXPECT_EQ(made.frame(17), part.frame(17));

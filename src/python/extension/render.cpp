@@ -116,8 +116,8 @@ std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format) 
 /// The bytes of a still file of this format.
 py::bytes still_bytes(const BoundScript& bound, const std::string& at, const std::string& format) {
   std::vector<std::uint8_t> bytes;
-  run_interruptibly([&](const std::stop_token&, const CallBack&) {
-    bytes = draw(still_picture(bound.script, instant_of(at)), format);
+  run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
+    bytes = draw(still_picture(bound.script, instant_of(at), stop), format);
   });
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
