@@ -90,7 +90,8 @@ struct BodyExposure {
 };
 
 /// The interval between two times, in either order, none of them negative unless the past is known.
-/// Every collision is listed, but for those that the closed form sums up. Valid after its log is gone.
+/// Every collision is listed, but for those that the closed form sums up. Valid after its log is
+/// gone.
 /// @throws as Log::state_at().
 BodyExposure expose(const Log& log, const Rational& begin, const Rational& end);
 
