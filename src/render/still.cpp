@@ -105,7 +105,9 @@ std::vector<Instant> spread_over_count(const Span& span, const ShownCollisions& 
 }
 
 /// Two blocks, whose collisions all happen at once.
-bool goes_through_corner(const Log& log) { return log.pair() && corner_of(log.pair()->blocks()); }
+bool goes_through_corner(const Log& log) {
+  return log.pair() != nullptr && corner_of(log.pair()->blocks());
+}
 
 /// @throws UsageError if the run has not as many different counts.
 void check_spread_over_count(const Log& log, const ShownCollisions& shown, int pictures) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/restitution.hpp>
 
 #include <algorithm>
 
