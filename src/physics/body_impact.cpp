@@ -1,3 +1,4 @@
+#include <piblocks/contact.hpp>
 #include <piblocks/log.hpp>
 
 #include <cmath>
