@@ -9,20 +9,21 @@
 
 namespace piblocks::benchmark {
 
-std::string Circumstances::fields() const {
-  return fmt::format("{},{},{},GCC {}", date, csv_text(commit), csv_text(cpu), __VERSION__);
-}
+namespace {
 
-std::string Circumstances::today() {
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-}
-
-std::string Circumstances::cpu_name() {
+std::string cpu_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   }
   return "unknown";
+}
+
+}  // namespace
+
+std::string circumstances(const std::string& commit) {
+  return fmt::format("{:%Y-%m-%d},{},{},GCC {}", fmt::gmtime(std::time(nullptr)), csv_text(commit),
+                     csv_text(cpu_name()), __VERSION__);
 }
 
 std::string csv_text(std::string text) {

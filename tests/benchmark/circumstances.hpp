@@ -6,16 +6,8 @@
 
 namespace piblocks::benchmark {
 
-struct Circumstances {
-  std::string commit;
-  std::string date = today();
-  std::string cpu = cpu_name();
-
-  /// The first fields of a row: date, commit, cpu, compiler.
-  std::string fields() const;
-  static std::string today();
-  static std::string cpu_name();
-};
+/// Date, commit, cpu, compiler.
+std::string circumstances(const std::string& commit = {});
 
 /// Text as one field of a CSV that needs no quotes: without commas and line breaks.
 std::string csv_text(std::string text);

@@ -3,28 +3,22 @@
 // In: nothing. Out: CSV on standard output; encoders.md holds the table.
 #include <fmt/format.h>
 
-#include <ctime>
 #include <filesystem>
 #include <random>
 
+#include "accuracy/deadline.hpp"
 #include "circumstances.hpp"
 #include "media/output/output.hpp"
 #include "support/article_frames.hpp"
 
 namespace piblocks {
 namespace {
-using testing_support::Pixels;
+using benchmark::thread_seconds;
 
 constexpr int kWidth_px = 1280;
 constexpr int kHeight_px = 720;
 constexpr int kSide_px = 16;
 constexpr int kFrames = 60;
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Grey macroblocks with noise, of which some are renewed.
 class Texture {
@@ -88,7 +82,7 @@ void measure(int noise, double share, const char* name) {
   spent_s += thread_seconds();
   std::size_t bytes = 0;
   for (const Packet& packet : chunk) bytes += packet.bytes.size();
-  fmt::print("{},{},{},{},{:.3f},{:.1f}\n", benchmark::Circumstances{}.fields(), noise, share, name,
+  fmt::print("{},{},{},{},{:.3f},{:.1f}\n", benchmark::circumstances(), noise, share, name,
              1000 * spent_s / kFrames, static_cast<double>(bytes) / kFrames / 1000);
 }
 

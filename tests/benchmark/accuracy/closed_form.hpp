@@ -45,6 +45,23 @@ class Unfolding {
     red_corner = to_scalar<Scalar>(system.wall_face + system.blue.width + system.red.width / 2);
   }
 
+  /// Collision k, at this distance of the line from the corner.
+  Event event_at(std::int64_t k, const Scalar& time, const Scalar& distance) const {
+    using std::cos;
+    if (k % 2 == 0) return {time, blue_corner, red_corner + distance};
+    const Scalar y = distance * cos(theta);
+    return {time, blue_corner + y, red_corner + y};
+  }
+  /// Blue's position where the line is so far beyond its turn.
+  /// @param is_odd  the ray before the phase
+  Scalar blue_beyond(const Scalar& along, const Scalar& phase, const Scalar& ray,
+                     bool is_odd) const {
+    using std::sin;
+    using std::sqrt;
+    const Scalar angle = (is_odd ? ray + 1 - phase : phase - ray) * theta;
+    return blue_corner + sqrt(impact * impact + along * along) * sin(angle) / sigma;
+  }
+
   Scalar sigma;
   Scalar theta;
   Scalar speed;        // |V|
@@ -72,25 +89,17 @@ class OneSided : private Unfolding<Number> {
     using std::sin;
     const Scalar angle = Scalar(k) * this->theta;
     const Scalar s = sin(angle);
-    const Scalar distance = this->impact / s;
-    const Scalar time = this->turn - this->impact / this->speed * cos(angle) / s;
-    if (k % 2 == 0) return {time, this->blue_corner, this->red_corner + distance};
-    const Scalar y = distance * cos(this->theta);
-    return {time, this->blue_corner + y, this->red_corner + y};
+    return this->event_at(k, this->turn - this->impact / this->speed * cos(angle) / s,
+                          this->impact / s);
   }
 
   Scalar blue_at(double time) const {
     using std::atan2;
     using std::floor;
-    using std::sin;
-    using std::sqrt;
     const Scalar along = this->speed * (time - this->turn);
     const Scalar phase = atan2(this->impact, Scalar(-along)) / this->theta;
     const Scalar ray = floor(phase);
-    const bool odd = static_cast<std::int64_t>(ray) % 2 != 0;
-    const Scalar angle = (odd ? ray + 1 - phase : phase - ray) * this->theta;
-    const Scalar distance = sqrt(this->impact * this->impact + along * along);
-    return this->blue_corner + distance * sin(angle) / this->sigma;
+    return this->blue_beyond(along, phase, ray, static_cast<std::int64_t>(ray) % 2 != 0);
   }
 
   std::int64_t count() const {
@@ -118,28 +127,21 @@ class TwoSided : private Unfolding<Number> {
     const Scalar to_go = late ? Scalar(this->whole - k) + this->fraction : Scalar(k);
     const Scalar angle = to_go * this->theta;
     const Scalar s = sin(angle);
-    const Scalar distance = this->impact / s;
     const Scalar tau = this->impact / this->speed * cos(angle) / s;
     const Scalar time = late ? this->turn + tau : this->turn - tau;
-    if (k % 2 == 0) return {time, this->blue_corner, this->red_corner + distance};
-    const Scalar y = distance * cos(this->theta);
-    return {time, this->blue_corner + y, this->red_corner + y};
+    return this->event_at(k, time, this->impact / s);
   }
 
   Scalar blue_at(double time) const {
     using std::atan2;
     using std::floor;
-    using std::sin;
-    using std::sqrt;
     const Scalar along = this->speed * (time - this->turn);
     const bool late = along >= 0;
     const Scalar to_go = atan2(this->impact, late ? along : Scalar(-along)) / this->theta;
     const Scalar phase = late ? this->fraction - to_go : to_go;
     const Scalar ray = floor(phase);
     const bool odd = (static_cast<std::int64_t>(ray) + (late ? this->whole : 0)) % 2 != 0;
-    const Scalar angle = (odd ? ray + 1 - phase : phase - ray) * this->theta;
-    const Scalar distance = sqrt(this->impact * this->impact + along * along);
-    return this->blue_corner + distance * sin(angle) / this->sigma;
+    return this->blue_beyond(along, phase, ray, odd);
   }
 
   /// A ray that is reached only at infinity does not count.
@@ -151,8 +153,6 @@ class ClosedForm final : public Method {
  public:
   using Scalar = typename Formula::Scalar;
   using Method::Method;
-
-  bool answers(Question) const override { return true; }
 
   WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {

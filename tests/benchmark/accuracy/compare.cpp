@@ -47,19 +47,19 @@ void run_pair(const Method& program, Match& match) {
   match.ratios.push_back(other.seconds / one.seconds);
 }
 
-void print_match(const Circumstances& circumstances, const Match& match) {
+void print_match(const std::string& circumstances, const Match& match) {
   const auto [least, greatest] = std::ranges::minmax(match.ratios);
   const double program_s = *median(match.program_s);
   const double loop_s = *median(match.loop_s);
   const Label& label = match.loop->label();
-  fmt::print("{},{},{},{},{},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g}\n", circumstances.fields(),
-             match.digits, match.events, label.method, label.scalar, match.ratios.size(), program_s,
-             loop_s, loop_s / program_s, least, greatest);
+  fmt::print("{},{},{},{},{},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g}\n", circumstances, match.digits,
+             match.events, label.method, label.scalar, match.ratios.size(), program_s, loop_s,
+             loop_s / program_s, least, greatest);
 }
 
 }  // namespace
 
-void compare_whole_logs(const Circumstances& circumstances, int pairs) {
+void compare_whole_logs(const std::string& circumstances, int pairs) {
   fmt::print(
       "date,commit,cpu,compiler,digits,events,loop,scalar,pairs,program_seconds,loop_seconds,ratio,"
       "least_ratio,greatest_ratio\n");
@@ -67,7 +67,7 @@ void compare_whole_logs(const Circumstances& circumstances, int pairs) {
   for (const int digits : {6, 7}) {
     matches.push_back({digits, event_loop<ArticleLoop<double>>("article's loop")});
     matches.push_back({digits, event_loop<GapLoop<double>>("gap loop")});
-    matches.push_back({digits, event_loop<VelocityStepper<double>>("velocity-only loop")});
+    matches.push_back({digits, event_loop<VelocityLoop<double>>("velocity-only loop")});
   }
   const MethodPtr program = product();
   for (int i = 0; i < pairs; ++i) {

@@ -140,8 +140,6 @@ class Cvode final : public Method {
       : Method({"CVODE Adams", kScalarName<double>, fmt::format("tol={:.0e}", tolerance)}),
         tolerance_(tolerance) {}
 
-  bool answers(Question) const override { return true; }
-
   WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     Integration run(system, tolerance_);

@@ -39,8 +39,6 @@ class EventLoop final : public Method {
 
   EventLoop(Label label, MakeStepper make) : Method(std::move(label)), make_(std::move(make)) {}
 
-  bool answers(Question) const override { return true; }
-
   WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     Stepper stepper = make_(system);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -11,8 +12,9 @@
 #include <vector>
 
 #include "accuracy/compare.hpp"
+#include "accuracy/measure.hpp"
 #include "accuracy/methods.hpp"
-#include "accuracy/report.hpp"
+#include "circumstances.hpp"
 #include "median.hpp"
 
 namespace piblocks::benchmark {
@@ -34,8 +36,50 @@ struct Contender {
   std::vector<double> seconds;
 };
 
+std::string name(Question question) {
+  switch (question) {
+    case Question::whole_log:
+      return "whole log";
+    case Question::instants:
+      return "instants";
+    case Question::count:
+      return "count";
+  }
+  return {};
+}
+
+std::string cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3g}", *value) : std::string();
+}
+
+void print_header() {
+  fmt::print(
+      "date,commit,cpu,compiler,question,method,scalar,parameter,digits,events,seconds,"
+      "ns_per_event,worst_time_error,worst_position_error,count,count_right,note\n");
+}
+
+void print_row(const std::string& circumstances, Question question, const Label& label,
+               const ReferenceRun& reference, const Measurement& measured) {
+  std::optional<double> ns_per_event;
+  if (measured.seconds && question != Question::instants) {
+    ns_per_event = *measured.seconds * 1e9 / static_cast<double>(reference.count);
+  }
+  std::string count;
+  std::string right;
+  if (measured.count) {
+    count = measured.count->get_str();
+    right = *measured.count == reference.count ? "yes" : "no";
+  }
+  fmt::print("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", circumstances, name(question),
+             csv_text(label.method), csv_text(label.scalar), csv_text(label.parameter),
+             reference.digits, reference.count, cell(measured.seconds), cell(ns_per_event),
+             cell(measured.worst_time_error), cell(measured.worst_position_error), count, right,
+             csv_text(measured.note));
+  std::fflush(stdout);
+}
+
 /// All methods on one question. `too_slow` are not tried, and new ones are added to it.
-void run_question(const Circumstances& circumstances, const std::vector<MethodPtr>& methods,
+void run_question(const std::string& circumstances, const std::vector<MethodPtr>& methods,
                   Question question, const ReferenceRun& reference, double budget_s,
                   std::set<const Method*>& too_slow) {
   std::vector<Contender> contenders;
@@ -61,7 +105,7 @@ void run_question(const Circumstances& circumstances, const std::vector<MethodPt
 
 /// A method that was too slow once is not tried with more digits.
 void run(const Options& options) {
-  const Circumstances circumstances{.commit = options.commit};
+  const std::string circumstances = benchmark::circumstances(options.commit);
   if (options.pairs > 0) return compare_whole_logs(circumstances, options.pairs);
   const std::vector<MethodPtr> methods = all_methods();
   std::map<Question, std::set<const Method*>> too_slow;

@@ -35,8 +35,8 @@ std::vector<MethodPtr> all_methods() {
   methods.push_back(closed_form<OneSided<Quad>>("closed form, one-sided"));
   methods.push_back(closed_form<OneSided<Decimal50>>("closed form, one-sided"));
   methods.push_back(multiprecision());
-  methods.push_back(event_loop<VelocityStepper<double>>("velocity-only loop"));
-  methods.push_back(event_loop<VelocityStepper<long double>>("velocity-only loop"));
+  methods.push_back(event_loop<VelocityLoop<double>>("velocity-only loop"));
+  methods.push_back(event_loop<VelocityLoop<long double>>("velocity-only loop"));
   methods.push_back(event_loop<GapLoop<double>>("gap loop"));
   methods.push_back(event_loop<GapLoop<long double>>("gap loop"));
   methods.push_back(event_loop<ArticleLoop<double>>("article's loop"));
@@ -45,7 +45,11 @@ std::vector<MethodPtr> all_methods() {
   methods.push_back(event_loop<ArticleLoop<Decimal50>>("article's loop"));
   methods.push_back(event_loop<SimulatorLoop<double>>("piblocks::EventSimulator"));
   for (const double step_s : {1e-3, 1e-4, 1e-5, 1e-6}) methods.push_back(euler(step_s));
+#ifdef PIBLOCKS_HAS_CVODE
   for (MethodPtr& method : cvode_methods()) methods.push_back(std::move(method));
+#else
+  fmt::print(stderr, "accuracy_benchmark: built without SUNDIALS; CVODE is left out\n");
+#endif
   return methods;
 }
 

@@ -14,8 +14,7 @@ std::vector<MethodPtr> all_methods();
 MethodPtr product();
 /// The tests' oracle; too slow for whole logs.
 MethodPtr multiprecision();
-/// CVODE's Adams method with root finding; empty, and a message on standard error, where the
-/// benchmark was built without SUNDIALS.
+/// CVODE's Adams method with root finding, where the benchmark was built with SUNDIALS.
 std::vector<MethodPtr> cvode_methods();
 
 }  // namespace piblocks::benchmark

@@ -14,8 +14,6 @@ class Product final : public Method {
  public:
   Product() : Method({"piblocks::CollisionLog", kScalarName<double>, ""}) {}
 
-  bool answers(Question) const override { return true; }
-
   WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     const auto log = make_collision_log(system);

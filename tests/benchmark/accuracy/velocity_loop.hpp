@@ -11,37 +11,39 @@
 
 namespace piblocks::benchmark {
 
-template <typename Scalar>
+template <typename Number>
 class VelocityLoop {
  public:
-  /// @param round  makes a Scalar of a Rational
-  template <typename Round>
-  VelocityLoop(const ExactMotion& motion, const Round& round)
-      : ratio_(round(motion.ratio)),
-        blue_share_(round(2 / (1 + motion.ratio))),
-        red_share_(round(2 * motion.ratio / (1 + motion.ratio))),
-        area_(round(abs(motion.areal_velocity))),
-        inverse_speed_squared_(round(1 / motion.speed_squared)),
-        u1_(round(motion.u1)),
-        u2_(round(motion.u2)),
-        blocks_are_next_(motion.blocks_first) {}
+  using Scalar = Number;
 
-  /// Performs the next collision; false if there is none.
-  bool step() {
-    const bool met = blocks_are_next_ ? meet_blocks() : meet_wall();
-    blocks_are_next_ = blocks_are_next_ != met;
-    return met;
+  explicit VelocityLoop(const BlockSystem& system) : VelocityLoop(system, ExactMotion(system)) {}
+
+  Flight<Scalar> start() const { return start_; }
+
+  bool next(Flight<Scalar>& flight) {
+    if (!(blocks_are_next_ ? meet_blocks() : meet_wall())) return false;
+    const Scalar y1 = blocks_are_next_ ? y2_ : Scalar(0);
+    blocks_are_next_ = !blocks_are_next_;
+    flight = {turn_ + tau_, blue_corner_ + y1, red_corner_ + y2_, u1_, u2_};
+    return true;
   }
 
-  /// Of the last collision: who met, how long after the turn, the gaps then and velocities after.
-  bool met_blocks() const { return !blocks_are_next_; }
-  Scalar tau() const { return tau_; }
-  Scalar y1() const { return met_blocks() ? y2_ : Scalar(0); }
-  Scalar y2() const { return y2_; }
-  Scalar u1() const { return u1_; }
-  Scalar u2() const { return u2_; }
-
  private:
+  VelocityLoop(const BlockSystem& system, const ExactMotion& motion)
+      : ratio_(to_scalar<Scalar>(motion.ratio)),
+        blue_share_(to_scalar<Scalar>(2 / (1 + motion.ratio))),
+        red_share_(to_scalar<Scalar>(2 * motion.ratio / (1 + motion.ratio))),
+        area_(to_scalar<Scalar>(abs(motion.areal_velocity))),
+        inverse_speed_squared_(to_scalar<Scalar>(1 / motion.speed_squared)),
+        u1_(to_scalar<Scalar>(motion.u1)),
+        u2_(to_scalar<Scalar>(motion.u2)),
+        blocks_are_next_(motion.blocks_first),
+        start_(start_of<Scalar>(system)),
+        turn_(to_scalar<Scalar>(motion.closest_approach)),
+        blue_corner_(to_scalar<Scalar>(system.wall_face + system.blue.width / 2)),
+        red_corner_(
+            to_scalar<Scalar>(system.wall_face + system.blue.width + system.red.width / 2)) {}
+
   bool meet_blocks() {
     const Scalar closing = u1_ - u2_;
     if (!(closing > 0)) return false;
@@ -70,36 +72,6 @@ class VelocityLoop {
   Scalar y2_{};
   Scalar tau_{};
   bool blocks_are_next_;
-};
-
-/// Adds to the loop what it leaves to its caller: when the turn is, and where the corner.
-template <typename Number>
-class VelocityStepper {
- public:
-  using Scalar = Number;
-
-  explicit VelocityStepper(const BlockSystem& system)
-      : VelocityStepper(system, ExactMotion(system)) {}
-
-  Flight<Scalar> start() const { return start_; }
-
-  bool next(Flight<Scalar>& flight) {
-    if (!loop_.step()) return false;
-    flight = {turn_ + loop_.tau(), blue_corner_ + loop_.y1(), red_corner_ + loop_.y2(), loop_.u1(),
-              loop_.u2()};
-    return true;
-  }
-
- private:
-  VelocityStepper(const BlockSystem& system, const ExactMotion& motion)
-      : loop_(motion, to_scalar<Scalar>),
-        start_(start_of<Scalar>(system)),
-        turn_(to_scalar<Scalar>(motion.closest_approach)),
-        blue_corner_(to_scalar<Scalar>(system.wall_face + system.blue.width / 2)),
-        red_corner_(
-            to_scalar<Scalar>(system.wall_face + system.blue.width + system.red.width / 2)) {}
-
-  VelocityLoop<Scalar> loop_;
   Flight<Scalar> start_;
   Scalar turn_;         // t_c
   Scalar blue_corner_;  // x_blue - y1

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>
-#include <piblocks/bodies.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/log.hpp>
 
 #include <functional>
 #include <optional>
@@ -49,11 +49,6 @@ Number to_number(const Rational& value) {
 }
 
 template <typename Number>
-std::vector<Number> to_numbers(const std::vector<double>& values) {
-  return {values.begin(), values.end()};
-}
-
-template <typename Number>
 inline const std::string kNumberName = "";
 template <>
 inline const std::string kNumberName<double> = "double";
@@ -86,12 +81,6 @@ Contestant contestant(std::string method, std::string number, Ask ask) {
     return answers;
   };
   return {std::move(method), std::move(number), run, reply};
-}
-
-/// Its time is that of a log alone.
-inline std::vector<double> no_positions(const BodySystem& system, const Rational& until) {
-  static_cast<void>(make_log(system, until));
-  return {};
 }
 
 /// Runs all of them in three rounds, each at least three times and for 0.2 s altogether: what else

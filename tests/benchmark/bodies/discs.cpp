@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-#include <piblocks/bodies.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/event_simulator.hpp>
+#include <piblocks/log.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,23 +22,6 @@ constexpr std::uint32_t kDiscs = 10;
 constexpr double kParted = 1e-3;
 constexpr mpfr_prec_t kFewBits = 400;
 constexpr mpfr_prec_t kRightBits = 2400;
-
-/// Discs among four immovable ones, which leave gaps too narrow for them: a box that the general
-/// engine knows, too.
-BodySystem between_large_discs() {
-  BodySystem system = disc_gas(kDiscs);
-  // Near the middle, in few digits: no number type rounds them.
-  const Rational x(std::round(to_double(system.walls[1].point[0] / 2)));
-  const Rational y(std::round(to_double(system.walls[3].point[1] / 2)));
-  system.walls.clear();
-  const Rational radius = 20;
-  const Rational away(57, 2);
-  for (const int sign : {-1, 1}) {
-    system.bodies.push_back({std::nullopt, {x + sign * away, y}, {0, 0}, radius});
-    system.bodies.push_back({std::nullopt, {x, y + sign * away}, {0, 0}, radius});
-  }
-  return system;
-}
 
 std::vector<double> disc_positions(const BodySystem& system,
                                    const std::vector<Rational>& instants) {
@@ -138,7 +121,6 @@ struct Verdict {
 };
 
 Verdict verdict_on(const Answers& answers, const RightAnswers& right) {
-  if (answers.empty()) return {};
   Wide worst = 0;
   const std::size_t per_instant = right.positions.size() / right.counts.size();
   for (std::size_t i = 0; i < right.positions.size(); ++i) {
@@ -170,8 +152,6 @@ std::vector<Contestant> disc_contestants(const BodySystem& system,
   const std::vector<Rational> exact(instants.begin(), instants.end());
   std::vector<Contestant> all = {
       contestant("piblocks::Log", "double", [=] { return disc_positions(system, exact); })};
-  all.push_back(contestant("the same without states", "double",
-                           [=] { return no_positions(system, exact.back()); }));
   const auto add = [&]<typename Number>(Number) {
     all.push_back(contestant("piblocks::EventSimulator", kNumberName<Number>,
                              [=] { return simulated_disc_positions<Number>(system, instants); }));
@@ -190,7 +170,7 @@ std::vector<Contestant> disc_contestants(const BodySystem& system,
 double end_of_certainty(const BodySystem& system) {
   for (Rational until = 1;; until *= 2) {
     const std::unique_ptr<Log> log = make_log(system, until);
-    if (const std::optional<double> end = log->certain_until()) return *end;
+    if (const std::optional<double> end = log->certain_until(until)) return *end;
   }
 }
 
@@ -220,31 +200,25 @@ DiscColumn disc_column(const BodySystem& system, double end) {
   return column;
 }
 
-/// @return how many collisions are certain
-int print_disc_rows(const std::string& container, const BodySystem& system) {
+}  // namespace
+
+void print_disc_table() {
   constexpr int kMany = 2000;
+  fmt::print(
+      "| Method | Number type | while certain: time | error | 2,000 collisions: time | parted at "
+      "|\n"
+      "|---|---|---:|---:|---:|---:|\n");
+  const BodySystem system = disc_gas(kDiscs);
   const DiscColumn certain = disc_column(system, end_of_certainty(system));
   const DiscColumn many = disc_column(system, time_after_discs(system, kMany));
   for (std::size_t row = 0; row < certain.contestants.size(); ++row) {
     const Contestant& contestant = certain.contestants[row];
     const std::optional<int> parted_at = many.verdicts[row].parted_at;
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} |\n", container, contestant.method,
-               contestant.number, time_text(contestant), error_text(certain.verdicts[row].error),
+    fmt::print("| {} | {} | {} | {} | {} | {} |\n", contestant.method, contestant.number,
+               time_text(contestant), error_text(certain.verdicts[row].error),
                time_text(many.contestants[row]), parted_at ? std::to_string(*parted_at) : "–");
   }
-  return certain.collisions;
-}
-
-}  // namespace
-
-void print_disc_table() {
-  fmt::print(
-      "| Between | Method | Number type | while certain: time | error | 2,000 collisions: time | "
-      "parted at |\n|---|---|---|---:|---:|---:|---:|\n");
-  const int in_box = print_disc_rows("walls", disc_gas(kDiscs));
-  const int between_discs = print_disc_rows("large discs", between_large_discs());
-  fmt::print("\n{} collisions between walls are certain, {} between large discs.\n\n", in_box,
-             between_discs);
+  fmt::print("\n{} collisions are certain.\n\n", certain.collisions);
 }
 
 }  // namespace piblocks::benchmark

@@ -8,8 +8,7 @@ namespace piblocks::benchmark {
 /// @throws SimulationError if the two programs that give the right answers disagree.
 void print_line_table();
 
-/// Ten discs in a box, and between four large discs: until certainty ends, and for 2,000
-/// collisions.
+/// Ten discs in a box: until certainty ends, and for 2,000 collisions.
 /// @throws SimulationError if the right answers in fewer and in more bits disagree.
 void print_disc_table();
 

@@ -1,4 +1,4 @@
-# The program's speed beside others', and what it depends on, from the CSV of speed_benchmark.
+# The program's speed beside others', and what it depends on, from the CSV of speed/measure.
 # In: variables csv (file) and folder. Out: folder/speed.svg
 # gnuplot -e "csv='speed.csv'; folder='.'" plot.gp
 
