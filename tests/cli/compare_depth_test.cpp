@@ -1,5 +1,5 @@
 // compare: what is stored is compared, at any depth and in any arrangement, and nothing else.
-#include "cli/cli_fixture.hpp"
+#include "cli/compare_fixture.hpp"
 #include "support/hand_made_png.hpp"
 
 namespace piblocks {
@@ -11,7 +11,7 @@ using testing_support::HandMadePng;
 using testing_support::png_chunk;
 using testing_support::PngColour;
 
-class CompareDepthTest : public CliFixture {
+class CompareDepthTest : public CompareFixture {
  protected:
   void write_png(const std::string& name, int bits, int level,
                  const std::string& chunks = {}) const {
@@ -31,23 +31,10 @@ class CompareDepthTest : public CliFixture {
     }
     write(name, text);
   }
-  CommandResult compare(const Arguments& arguments) const {
-    return piblocks(Arguments{"compare"} + arguments);
-  }
   /// By ffmpeg, if it is there, from its test picture.
   bool convert(const std::string& filter, const std::string& options,
                const std::string& name) const {
-    const std::string command = "cd '" + folder_.path().string() +
-                                "' && ffmpeg -loglevel error -y -f lavfi -i "
-                                "testsrc=s=64x48:d=0.4:r=5" +
-                                filter + " " + options + " " + name;
-    return std::system(command.c_str()) == 0;
-  }
-  void expect_complaint(const Arguments& arguments, const std::string& what) const {
-    const CommandResult result = compare(arguments);
-    EXPECT_EQ(result.exit_code, 5) << result.out;
-    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
-    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+    return ffmpeg("-f lavfi -i testsrc=s=64x48:d=0.4:r=5" + filter + " " + options + " " + name);
   }
 };
 
@@ -204,9 +191,7 @@ TEST_F(CompareDepthTest, HowAVideoIsShownIsPartOfIt) {
   if (!convert("", "-c:v libx264", "a.mp4")) GTEST_SKIP() << "no ffmpeg here";
   const auto copied = [&](const std::string& options, const std::string& name,
                           const std::string& input_options = "") {
-    const std::string command = "cd '" + folder_.path().string() + "' && ffmpeg -loglevel error " +
-                                input_options + " -y -i a.mp4 -c copy " + options + " " + name;
-    return std::system(command.c_str()) == 0;
+    return ffmpeg(input_options + " -i a.mp4 -c copy " + options + " " + name);
   };
   // From FFmpeg 6 on by the one, before by the other.
   ASSERT_TRUE(copied("", "turned.mp4", "-display_rotation 180") ||

@@ -3,16 +3,15 @@
 #include <sys/mount.h>
 
 #include <algorithm>
-#include <cstdlib>
 
-#include "cli/cli_fixture.hpp"
+#include "cli/compare_fixture.hpp"
 #include "support/ordinary_user.hpp"
 
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
 
-class CompareTest : public CliFixture {
+class CompareTest : public CompareFixture {
  protected:
   void write_picture(const std::string& name, const std::string& size = "160x90") const {
     output_of({"still", "--size", size, "--at", "1", "-o", name});
@@ -38,20 +37,11 @@ class CompareTest : public CliFixture {
   void still(const std::string& output, const std::string& instant) const {
     output_of({"still", "--size", "160x90", "--at", instant, "-o", output});
   }
-  CommandResult compare(const Arguments& arguments) const {
-    return piblocks(Arguments{"compare"} + arguments);
-  }
   std::string verdict(const Arguments& arguments, int exit_code) const {
     const CommandResult result = compare(arguments);
     EXPECT_EQ(result.exit_code, exit_code) << result.out << result.err;
     const auto said = lines(result.out);
     return said.empty() ? std::string() : said.back();
-  }
-  std::string complaint(const Arguments& arguments, int exit_code) const {
-    const CommandResult result = compare(arguments);
-    EXPECT_EQ(result.exit_code, exit_code) << result.out;
-    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
-    return result.err;
   }
 };
 
@@ -382,10 +372,7 @@ TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
       {{long_name, "1.png"}, "x.png': File name too long"}};
   for (const auto& [arguments, message] : cases) {
     const testing_support::OrdinaryUser user;
-    const CommandResult result = piblocks(Arguments{"compare"} + arguments);
-    EXPECT_EQ(result.exit_code, 5) << result.out;
-    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    expect_complaint(arguments, message);
   }
   // What is in a folder that cannot be read is neither missing nor new.
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "a/s/1.png"});
@@ -394,7 +381,7 @@ TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
   for (const Arguments& sides :
        {Arguments{"a", "b"}, {"b", "a"}, {"a/s", "b/s"}, {"a/s/%d.png", "b/s/%d.png"}}) {
     const testing_support::OrdinaryUser user;
-    const CommandResult result = piblocks(Arguments{"compare"} + sides);
+    const CommandResult result = compare(sides);
     EXPECT_EQ(result.exit_code, 5) << result.out;
     EXPECT_EQ(result.out, "unreadable: 1 unreadable\n");
     EXPECT_EQ(lines(result.err).size(), 1U) << result.err;

@@ -1,29 +1,12 @@
 // compare: files that are damaged, cut off, or more than they seem.
-#include <cstdlib>
-
-#include "cli/cli_fixture.hpp"
+#include "cli/compare_fixture.hpp"
 
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
 
-class CompareVideoTest : public CliFixture {
+class CompareVideoTest : public CompareFixture {
  protected:
-  CommandResult compare(const Arguments& arguments) const {
-    return piblocks(Arguments{"compare"} + arguments);
-  }
-  /// If ffmpeg is there.
-  bool ffmpeg(const std::string& options) const {
-    const std::string command =
-        "cd '" + folder_.path().string() + "' && ffmpeg -nostdin -loglevel error -y " + options;
-    return std::system(command.c_str()) == 0;
-  }
-  void expect_complaint(const Arguments& arguments, const std::string& what) const {
-    const CommandResult result = compare(arguments);
-    EXPECT_EQ(result.exit_code, 5) << result.out;
-    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
-    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
-  }
   void render(const std::string& name, const Arguments& options = {}) const {
     output_of(
         Arguments{"render", "--quiet", "--size", "64x36", "--fps", "10", "--to", "1", "-o", name} +

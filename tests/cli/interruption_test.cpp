@@ -10,10 +10,25 @@
 namespace piblocks {
 namespace {
 
-using InterruptionTest = CliFixture;
-
 /// Hours of work, of which the first output is there soon.
 const Arguments kLong{"render", "--quiet", "--size", "320x180", "--fps", "60", "--to", "9999"};
+
+class InterruptionTest : public CliFixture {
+ protected:
+  /// A command that waits ends by the signal, and leaves the folder as it was.
+  void expect_left(const Arguments& arguments, int signal) const {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    const std::vector<std::string> before = entries();
+    RunningCommand command(arguments, {.folder = folder_.path()});
+    EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
+    command.send(signal);
+    EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
+    const CommandResult result = command.wait();
+    EXPECT_EQ(result.exit_code, -signal);
+    EXPECT_EQ(result.err, "piblocks: interrupted\n");
+    EXPECT_EQ(entries(), before);
+  }
+};
 
 struct Interruption {
   std::string name;
@@ -88,18 +103,11 @@ TEST_F(InterruptionTest, ASecondSignalEndsItAtOnce) {
 }
 
 /// Nobody writes to the pipe that the program reads. It is asked only after it has come that far.
-class PipeTest : public CliFixture, public testing::WithParamInterface<const char*> {};
+class PipeTest : public InterruptionTest, public testing::WithParamInterface<const char*> {};
 
 TEST_P(PipeTest, ThatNobodyWritesToCanBeLeft) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-  RunningCommand command(split(GetParam(), ' '), {.folder = folder_.path()});
-  EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
-  command.send(SIGINT);
-  EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
-  const CommandResult result = command.wait();
-  EXPECT_EQ(result.exit_code, -SIGINT);
-  EXPECT_EQ(result.err, "piblocks: interrupted\n");
-  EXPECT_EQ(entries(), (std::vector<std::string>{"pipe"}));
+  expect_left(split(GetParam(), ' '), SIGINT);
 }
 INSTANTIATE_TEST_SUITE_P(AsInput, PipeTest,
                          testing::Values("render pipe -o new/a.mp4", "still pipe --at 1 -o a.png",
@@ -111,40 +119,17 @@ INSTANTIATE_TEST_SUITE_P(AsInput, PipeTest,
                                          "sheet --logo pipe -o a.pdf", "compare pipe pipe",
                                          "golden check pipe --dir ."));
 
-/// A writer that has opened the pipe holds the program in a read.
+/// A writer that has opened the pipe holds the program in a read. Both sides of a comparison are
+/// read at a time, by threads of their own.
 TEST_F(InterruptionTest, APipeThatStaysSilentCanBeLeft) {
-  for (const Arguments& arguments :
-       {Arguments{"count", "pipe"},
-        Arguments{"still", "--logo", "pipe", "--at", "1", "-o", "a.png"}}) {
-    const std::string pipe = folder_ / "pipe";
-    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    const Descriptor writer(::open(pipe.c_str(), O_RDWR | O_CLOEXEC));
-    RunningCommand command(arguments, {.folder = folder_.path()});
-    EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
-    command.send(SIGTERM);
-    EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
-    EXPECT_EQ(command.wait().exit_code, -SIGTERM);
-    EXPECT_EQ(entries(), (std::vector<std::string>{"pipe"}));
-    std::filesystem::remove(pipe);
-  }
-}
-
-/// Both sides of a comparison are read at a time, by threads of their own.
-TEST_F(InterruptionTest, AComparisonThatWaitsCanBeLeft) {
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "a.png"});
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   const Descriptor writer(::open((folder_ / "pipe").c_str(), O_RDWR | O_CLOEXEC));
-  const auto before = entries();
-  for (const Arguments& arguments :
-       {Arguments{"compare", "pipe", "a.png"}, Arguments{"compare", "a.png", "pipe"}}) {
-    RunningCommand command(arguments, {.folder = folder_.path()});
-    EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
-    command.send(SIGINT);
-    EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
-    const CommandResult result = command.wait();
-    EXPECT_EQ(result.exit_code, -SIGINT);
-    EXPECT_EQ(result.err, "piblocks: interrupted\n");
-    EXPECT_EQ(entries(), before);
+  for (const int signal : {SIGTERM, SIGINT}) {
+    expect_left({"count", "pipe"}, signal);
+    expect_left({"still", "--logo", "pipe", "--at", "1", "-o", "b.png"}, signal);
+    expect_left({"compare", "pipe", "a.png"}, signal);
+    expect_left({"compare", "a.png", "pipe"}, signal);
   }
 }
 

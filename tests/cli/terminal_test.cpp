@@ -9,14 +9,18 @@ class TerminalTest : public CliFixture {
   void SetUp() override {
     if (!testing_support::has_pseudo_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
   }
+  /// With a terminal for what is said to people.
+  CommandResult at_terminal(const Arguments& arguments, CommandOptions options = {}) const {
+    options.folder = folder_.path();
+    options.err_is_terminal = true;
+    return RunningCommand(arguments, options).wait();
+  }
 };
 
 const Arguments kRenderForTerminal{"render", "--size", "640x360", "--to", "last", "-o", "null"};
 
 TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
-  const CommandResult result =
-      RunningCommand(kRenderForTerminal, {.folder = folder_.path(), .err_is_terminal = true})
-          .wait();
+  const CommandResult result = at_terminal(kRenderForTerminal);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("\r\x1b[K[                              ]   0 %"), std::string::npos);
   const std::size_t last_clear = result.err.rfind("\r\x1b[K");
@@ -29,18 +33,14 @@ TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
 TEST_F(TerminalTest, TheBarTellsRateAndTimeLeft) {
   const Arguments slow{"render", "--size",    "1280x720", "--jobs", "1",       "--to",
                        "last",   "--encoder", "libx264",  "-o",     "slow.mp4"};
-  const CommandResult result =
-      RunningCommand(slow, {.folder = folder_.path(), .err_is_terminal = true}).wait();
+  const CommandResult result = at_terminal(slow);
   EXPECT_NE(result.err.find(" frames/s  "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find(" left"), std::string::npos) << result.err;
 }
 
 /// A line that wraps cannot be cleared.
 TEST_F(TerminalTest, TheBarIsNoWiderThanTheTerminal) {
-  const CommandResult result =
-      RunningCommand(kRenderForTerminal,
-                     {.folder = folder_.path(), .err_is_terminal = true, .columns = 20})
-          .wait();
+  const CommandResult result = at_terminal(kRenderForTerminal, {.columns = 20});
   const std::string cleared = "\r\x1b[K";
   std::size_t bars = 0;
   for (std::size_t at = result.err.find(cleared + '['); at != std::string::npos; ++bars) {
@@ -52,21 +52,14 @@ TEST_F(TerminalTest, TheBarIsNoWiderThanTheTerminal) {
 }
 
 TEST_F(TerminalTest, ThatIsDumbGetsNoEscapeSequences) {
-  const CommandResult result = RunningCommand(kRenderForTerminal, {.folder = folder_.path(),
-                                                                   .environment = {"TERM=dumb"},
-                                                                   .err_is_terminal = true})
-                                   .wait();
+  const CommandResult result = at_terminal(kRenderForTerminal, {.environment = {"TERM=dumb"}});
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
   EXPECT_TRUE(result.err.starts_with("null: 742 frames in ")) << result.err;
 }
 
 TEST_F(TerminalTest, ShowsHowFarALogHasComeIfItTakesAWhile) {
   const auto said = [&](const char* rows) {
-    return RunningCommand(
-               {"log", "--digits", "8", "--limit", rows},
-               {.folder = folder_.path(), .out_file = "/dev/null", .err_is_terminal = true})
-        .wait()
-        .err;
+    return at_terminal({"log", "--digits", "8", "--limit", rows}, {.out_file = "/dev/null"}).err;
   };
   EXPECT_EQ(said("1000"), "");
   const std::string err = said("30e6");
@@ -77,17 +70,13 @@ TEST_F(TerminalTest, ShowsHowFarALogHasComeIfItTakesAWhile) {
 TEST_F(TerminalTest, AnErrorDoesNotStandBesideTheBar) {
   std::filesystem::create_directory(folder_ / "1.png");
   const Arguments render{"render", "--size", "64x36", "--fps", "10", "--to", "1", "-o", "%d.png"};
-  const CommandResult result =
-      RunningCommand(render, {.folder = folder_.path(), .err_is_terminal = true}).wait();
+  const CommandResult result = at_terminal(render);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("\r\x1b[Kpiblocks: output: "), std::string::npos) << result.err;
 }
 
 TEST_F(TerminalTest, IsLeftAloneWhenQuiet) {
-  const CommandResult result = RunningCommand(kRenderForTerminal + Arguments{"--quiet"},
-                                              {.folder = folder_.path(), .err_is_terminal = true})
-                                   .wait();
-  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(at_terminal(kRenderForTerminal + Arguments{"--quiet"}).err, "");
 }
 
 TEST_F(TerminalTest, GetsTextButNoBytes) {

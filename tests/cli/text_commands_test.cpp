@@ -69,16 +69,6 @@ TEST_F(TextCommandsTest, StatePrintsOneObjectALine) {
   EXPECT_EQ(objects[3], objects[4]);
 }
 
-TEST_F(TextCommandsTest, StateFollowsTheLawsOfMotion) {
-  for (const std::string& object :
-       lines(output_of({"state", "--digits", "2", "--at", "0,2.5,3,3.4,3.5,4,last,100"}))) {
-    const double v_blue = json_number(object, {"blue", "velocity"});
-    const double v_red = json_number(object, {"red", "velocity"});
-    EXPECT_NEAR(v_blue * v_blue + 100 * v_red * v_red, 100, 1e-9) << object;
-    EXPECT_GE(json_number(object, {"blue", "position"}), 0.5) << object;
-  }
-}
-
 TEST_F(TextCommandsTest, StateGoesBackBeforeTimeZeroWithoutNegativeZeros) {
   const std::string state = output_of({"state", "--at", "-3"});
   EXPECT_EQ(json_value(state, {"blue", "velocity"}), "0");

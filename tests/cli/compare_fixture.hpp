@@ -1,0 +1,36 @@
+// What tests of `compare` share.
+// In: arguments behind the command. Out: what it said.
+#pragma once
+
+#include <cstdlib>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+
+class CompareFixture : public CliFixture {
+ protected:
+  CommandResult compare(const Arguments& arguments) const {
+    return piblocks(Arguments{"compare"} + arguments);
+  }
+  /// The only line of complaint.
+  std::string complaint(const Arguments& arguments, int exit_code) const {
+    const CommandResult result = compare(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.out;
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+    return result.err;
+  }
+  /// What cannot be read.
+  void expect_complaint(const Arguments& arguments, const std::string& what) const {
+    const std::string said = complaint(arguments, 5);
+    EXPECT_NE(said.find(what), std::string::npos) << said;
+  }
+  /// In the test's folder, if ffmpeg is there.
+  bool ffmpeg(const std::string& options) const {
+    const std::string command =
+        "cd '" + folder_.path().string() + "' && ffmpeg -nostdin -loglevel error -y " + options;
+    return std::system(command.c_str()) == 0;
+  }
+};
+
+}  // namespace piblocks
