@@ -153,7 +153,7 @@ std::optional<std::string> Command::text(const std::string& option) const {
 }
 
 std::vector<std::string> Command::texts(const std::string& option) const {
-  const auto given = program_->values.find(app_->get_option(option));
+  const auto given = program_->values.find(app_->get_option_no_throw(option));
   return given == program_->values.end() ? std::vector<std::string>() : given->second;
 }
 

@@ -3,12 +3,8 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/restitution.hpp>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,21 +14,6 @@
 
 namespace piblocks::cli {
 namespace {
-
-static_assert(std::endian::native == std::endian::little && sizeof(long) == 8,
-              "rows are written as they are in memory");
-
-using Kind = std::array<char, 6>;
-static_assert(kRow_bytes == 7 * 8 + sizeof(Kind));
-
-constexpr Kind kWall{'w', 'a', 'l', 'l'};
-constexpr Kind kBlocks{'b', 'l', 'o', 'c', 'k', 's'};
-
-template <typename Value>
-char* put(char* at, const Value& value) {
-  std::memcpy(at, &value, sizeof value);
-  return at + sizeof value;
-}
 
 Integer parse_index(const std::string& text) {
   if (std::optional<Integer> index = whole_number(text)) return *std::move(index);
@@ -111,38 +92,6 @@ Rows select_rows(const OptionTexts& options, const Log& log) {
         readable(rows.count()), readable(kMaxRows)));
   }
   return rows;
-}
-
-std::string npy_header(std::string_view row_type, const Rows& rows) {
-  for (const Integer& index : {rows.first, rows.last}) {
-    if (rows.count() == 0 || abs(index) <= to_integer(std::numeric_limits<std::int64_t>::max()))
-      continue;
-    throw UsageError(fmt::format("log: index {} does not fit in 64 bits of npy; use csv or jsonl",
-                                 readable(index)));
-  }
-  constexpr std::size_t kAlignment_bytes = 64;  // of the first row
-  std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}",
-                                 row_type, rows.count().get_str());
-  std::string header("\x93NUMPY\x01\x00", 8);
-  const std::size_t length = header.size() + 2 + text.size() + 1;  // with its own length, and '\n'
-  text.append((kAlignment_bytes - length % kAlignment_bytes) % kAlignment_bytes, ' ');
-  text += '\n';
-  header += static_cast<char>(text.size() % 256);
-  header += static_cast<char>(text.size() / 256);
-  return header + text;
-}
-
-void write_rows(const CollisionBatch& batch, std::int64_t first, char* at) {
-  for (std::size_t i = 0; i < batch.size; ++i) {
-    at = put(at, first + static_cast<std::int64_t>(i));
-    at = put(at, batch.time_hi[i]);
-    at = put(at, batch.time_lo[i]);
-    at = put(at, batch.kind[i] == CollisionKind::wall ? kWall : kBlocks);
-    at = put(at, batch.blue_position[i]);
-    at = put(at, batch.red_position[i]);
-    at = put(at, batch.blue_velocity[i]);
-    at = put(at, batch.red_velocity[i]);
-  }
 }
 
 }  // namespace piblocks::cli

@@ -2,10 +2,10 @@
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,48 +14,28 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
-#include "cli/state_text.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "scene/run_log.hpp"
+#include "scene/run_tables.hpp"
 
 namespace piblocks::cli {
 namespace {
 
-void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
-                  const Command& options) {
-  for (const char* const option : {"--engine", "--bounds"}) {
-    if (options.is_given(option)) require_blocks(scene, option);
-  }
-  const std::unique_ptr<Log> run = log_of(scene);
-  const Log& log = *run;
-  TextOutput out("-");
-  Integer last = 0;
-  for (const Instant& instant : instants) {
-    const Rational time = time_of(instant, log);
-    require_certain(scene, log, time);
-    const BodiesState state = log.state_at(time);
-    last = std::max(last, state.count);
-    out.line(state_text(log.system(), time, state));
-  }
-  out.finish();
-  note_ties(scene, log, last);
-}
-
-/// All collisions, or those until --to; of two blocks and a wall all are counted without a log.
+/// All collisions, or those until --to; of blue and red all are counted without a log.
 void run_count(const Command& options, const SceneOptions& scene_options) {
   TextOutput out("-");
-  const Scene scene = scene_options.scene();
+  Scene scene = scene_options.scene();
   const std::optional<Instant> to = options.value("--to", parse_instant);
   std::unique_ptr<Log> log;
   Integer count;
-  if (to || scene.bodies) {
-    log = log_of(scene);
+  if (to || options.is_given("--engine") || !has_short_names(scene)) {
+    log = make_log(scene, options);
     const auto until = to ? std::optional(time_of(*to, *log)) : log->horizon();
     count = until ? log->count_at(*until) : log->last();
     require_certain(scene, *log, until);
   }
-  if (!log || count == infinite_count(*log)) count = count_collisions(scene.system);
+  if (!log || count == infinite_count(*log)) count = count_of(scene);
   out.line(count.get_str(scene.show.base));
   out.finish();
   if (log) note_ties(scene, *log, count);
@@ -68,18 +48,22 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
 
 void run_state(const Command& options, const SceneOptions& scene_options) {
   const std::vector<Instant> instants = *options.value("--at", parse_instants);
-  const Scene scene = scene_options.scene();
-  if (scene.bodies) return write_bodies(scene, instants, options);
-  const auto log = make_log(scene.system, options);
-  const std::optional<Integer> infinite = infinite_count(*log);
+  Scene scene = scene_options.scene();
+  const bool has_bounds = options.is_given("--bounds");
+  const std::unique_ptr<Log> log = make_log(scene, options);
+  const std::unique_ptr<RunTables> tables = tables_of(scene, *log);
+  const Table table = tables->states(has_bounds);
   TextOutput out("-");
+  Integer last = 0;
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);
-    std::optional<PositionBounds> bounds;
-    if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
-    out.line(state_text(time, log->blocks_at(time), infinite, bounds));
+    require_certain(scene, *log, time);
+    const StateRow state = tables->state_at(time, has_bounds);
+    last = std::max(last, state.count);
+    out.line(table.json_line(state.rows()));
   }
   out.finish();
+  note_ties(scene, *log, last);
   note_convention(scene);
 }
 
@@ -116,6 +100,7 @@ void add_count(Command& app) {
   SceneOptions options(command);
   command.add_value("--to", "T",
                     "Count collisions until then (default: all; needed where they\nnever end)");
+  add_engine(command);
   command.set_footer(
       "Examples:\n"
       "  piblocks count --digits 12\n"

@@ -3,11 +3,13 @@
 
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
 
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace piblocks {
 
@@ -15,21 +17,38 @@ namespace piblocks {
 /// that is a time.
 /// @param stop  as make_log(). @throws as make_log()
 std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop = {});
+/// The same by this engine, if one is given.
+/// @throws UsageError if the log has no pair(), or the engine would have to store too much
+std::unique_ptr<Log> log_by(const std::optional<Engine>& engine, const Scene& scene);
+
+/// How many collisions the run has.
+/// @throws UsageError if they are infinitely many, may never end, or are not certain
+Integer count_of(const Scene& scene);
+
+/// The index in this log that stands for infinitely many collisions, if one does.
+std::optional<Integer> infinite_count(const Log& log);
 
 /// @param time  nothing for the whole run
 /// @throws UsageError if bodies are not certain until this time, unless the scene allows that.
 void require_certain(const Scene& scene, const Log& log, const std::optional<Rational>& time);
 
-/// What to tell the user if the order of ties decides what happens up to this collision; nothing of
-/// a scene with two blocks and a wall, which has a convention.
-std::optional<std::string> tie_note(const Scene& scene, const Log& log, const Integer& last);
+/// @param what  in the message: an option
+/// @throws UsageError unless the log has a pair()
+void require_pair(const Log& log, const char* what);
 
 /// Which collisions the log lists: "no collisions", "collisions #1 to #31".
 /// @param mark  before each number
 std::string listed_collisions(const Log& log, const char* mark);
 
-/// @param what  in the message: an option
-/// @throws UsageError if the scene has bodies: only two blocks and a wall can be shown that way.
-void require_blocks(const Scene& scene, const char* what);
+/// What to tell the user if the order of ties decides what happens up to this collision; nothing of
+/// blue and red, which have a convention.
+std::optional<std::string> tie_note(const Scene& scene, const Log& log, const Integer& last);
+
+/// Which of two equally good counts is shown, if all collisions of a run happen at once: their
+/// number then depends on a convention. A line for each such scene.
+std::vector<std::string> convention_notes(const Script& script);
+
+/// How far the log of a run of infinitely many collisions goes; nothing for other scenes.
+std::optional<std::string> endless_note(const Scene& scene);
 
 }  // namespace piblocks

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -70,18 +69,13 @@ std::vector<std::string> key_names() {
 
 std::string count_of(const BoundScript& bound) {
   const WithoutGil released;
-  const Scene& scene = scene_of(bound, "count");
-  if (!scene.bodies) return hexadecimal(count_collisions(scene.system));
-  const std::unique_ptr<Log> log = log_of(scene);
-  const Integer count = log->last();
-  require_certain(scene, *log, log->horizon());
-  return hexadecimal(count);
+  return hexadecimal(piblocks::count_of(scene_of(bound, "count")));
 }
 
 std::vector<std::string> notes_of(const BoundScript& bound) {
-  std::vector<std::string> notes = cli::convention_notes(bound.script);
+  std::vector<std::string> notes = convention_notes(bound.script);
   if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
-    if (auto note = cli::endless_note(*scene)) notes.push_back(std::move(*note));
+    if (auto note = endless_note(*scene)) notes.push_back(std::move(*note));
   }
   return notes;
 }
@@ -153,11 +147,6 @@ void bind_script(py::module_& module) {
       .def_property_readonly(
           "is_storyboard",
           [](const BoundScript& bound) { return std::holds_alternative<Storyboard>(bound.script); })
-      .def_property_readonly("has_bodies",
-                             [](const BoundScript& bound) {
-                               const auto* const scene = std::get_if<Scene>(&bound.script);
-                               return scene != nullptr && scene->bodies.has_value();
-                             })
       .def_property_readonly("is_transparent",
                              [](const BoundScript& bound) {
                                return view_of(bound.script).background == Background::transparent;

@@ -13,13 +13,7 @@ from . import _piblocks
 from ._errors import UsageError
 from ._values import instant, options, scalar
 
-#: A row of a log, as ``piblocks log --format npy`` writes it.
-_ROW = np.dtype(ast.literal_eval(_piblocks.ROW_TYPE))
-#: The same with the kind of the collision as a str, which compares with Python's strings.
-ROW = np.dtype([(n, "U6" if n == "kind" else _ROW[n]) for n in _ROW.names or ()])
-_CHUNK = 65_536  # rows whose kind becomes a str at a time
-_STATE = ast.literal_eval(_piblocks.STATE_TYPE)
-_BOUNDS = ast.literal_eval(_piblocks.BOUND_TYPE)
+_CHUNK = 65_536  # rows whose words become str at a time
 
 
 @dataclass(frozen=True)
@@ -39,8 +33,39 @@ class State:
     x_red_bound: Optional[float] = None
 
 
-def run_of(script: _piblocks.Script, engine: Any) -> _piblocks.Run:
-    return _piblocks.Run(script, {b"--engine": scalar("engine", engine)})
+@dataclass(frozen=True, eq=False)
+class BodiesState:
+    """All bodies at one instant, or at each of an array of them.
+
+    Bodies are in the order of the scene. The last axis of positions and velocities has one
+    coordinate on a line, and two, x and y, in a plane.
+    """
+
+    #: A float; an array of the shape of the times if these were one.
+    time: Any
+    #: Index of the last collision until then: an int, or an array like ``time``, of int64, or of
+    #: ints if these do not fit.
+    count: Any
+    #: Of the centres, in the scene's units: (bodies, dimensions), after the shape of the times.
+    positions: np.ndarray
+    #: As ``positions``; just after a collision that happens at that time.
+    velocities: np.ndarray
+    #: How far each position may be from the truth: (bodies,), after the shape of the times. None
+    #: unless bounds were asked for.
+    position_bounds: Optional[np.ndarray] = None
+
+
+def run_of(
+    script: _piblocks.Script, operation: str, engine: str, to: Any = None
+) -> _piblocks.Run:
+    given = {} if engine == "unfolded" else {b"--engine": scalar("engine", engine)}
+    if to is not None:
+        given[b"--to"] = instant("to", to)
+    return _piblocks.Run(script, operation, given)
+
+
+def _dtype(row_type: str) -> np.dtype:
+    return np.dtype(ast.literal_eval(row_type))
 
 
 def _with_objects(dtype: np.dtype, name: str) -> np.dtype:
@@ -63,10 +88,7 @@ def _index(name: str, value: Any) -> int:
     return int(value)
 
 
-AnyRun = Union[_piblocks.Run, _piblocks.BodyRun]
-
-
-def _limit_until(run: AnyRun, given: dict[bytes, bytes], last: int) -> int:
+def _limit_until(run: _piblocks.Run, given: dict[bytes, bytes], last: int) -> int:
     """How many rows there are up to this index."""
     if not run.has(format(last, "x")):
         first_index, size = int(run.first_index, 16), int(run.size, 16)
@@ -79,16 +101,8 @@ def _limit_until(run: AnyRun, given: dict[bytes, bytes], last: int) -> int:
     return last - int(first, 16) + 1
 
 
-def options_of_log(from_: Any, to: Any, first: Any, limit: Any) -> dict[bytes, bytes]:
-    given = options({"--first": first, "--limit": limit})
-    for name, value in (("from", from_), ("to", to)):
-        if value is not None:
-            given[b"--" + name.encode()] = instant(name, value)
-    return given
-
-
-def selected(
-    run: AnyRun, given: dict[bytes, bytes], last: Any, limit: Any
+def _selected(
+    run: _piblocks.Run, given: dict[bytes, bytes], last: Any, limit: Any
 ) -> tuple[int, int]:
     """The index of the first row, and how many there are."""
     if last is not None:
@@ -101,28 +115,25 @@ def selected(
     return int(begin, 16), int(count, 16)
 
 
-def _fit(begin: int, count: int) -> bool:
-    return -(2**63) < begin and begin + count < 2**63
-
-
-def with_index(rows: np.ndarray, begin: int) -> np.ndarray:
-    """The rows, with their indices as ints if these do not fit into int64."""
-    if _fit(begin, len(rows)):
-        return rows
-    return _replace_column(rows, "index", [begin + i for i in range(len(rows))])
-
-
 def log(
     run: _piblocks.Run, from_: Any, to: Any, first: Any, last: Any, limit: Any
 ) -> np.ndarray:
-    begin, count = selected(run, options_of_log(from_, to, first, limit), last, limit)
-    rows = np.empty(count, ROW)
-    fits = _fit(begin, count)
+    given = options({"--first": first, "--limit": limit})
+    for name, value in (("from", from_), ("to", to)):
+        if value is not None:
+            given[b"--" + name.encode()] = instant(name, value)
+    begin, count = _selected(run, given, last, limit)
+    row = _dtype(run.row_type)
+    # Words become str, which compare with Python's strings.
+    shown = [(n, f"U{row[n].itemsize}" if row[n].kind == "S" else row[n]) for n in row.names or ()]
+    rows = np.empty(count, shown)
     for start in range(0, count, _CHUNK):
-        part = np.empty(min(_CHUNK, count - start), _ROW)
-        run.fill_log(format(begin + start, "x"), part.view(np.uint8), len(part), fits)
+        part = np.empty(min(_CHUNK, count - start), row)
+        run.fill_log(format(begin + start, "x"), part.view(np.uint8), len(part))
         rows[start : start + len(part)] = part
-    return with_index(rows, begin)
+    if -(2**63) < begin and begin + count < 2**63:
+        return rows
+    return _replace_column(rows, "index", [begin + i for i in range(count)])
 
 
 def _whole(text: str) -> Union[int, float]:
@@ -130,15 +141,30 @@ def _whole(text: str) -> Union[int, float]:
 
 
 def _fill(run: _piblocks.Run, times: Any, bounds: bool, shape: tuple[int, ...]) -> np.ndarray:
-    rows = np.empty(len(times), np.dtype(_STATE + (_BOUNDS if bounds else [])))
-    if isinstance(times, np.ndarray):
-        counts = run.states_of_numbers(times, bounds, rows.view(np.uint8))
-    else:
-        counts = run.states_of_texts(times, bounds, rows.view(np.uint8))
+    rows = np.empty(len(times), _dtype(run.state_type(bounds)))
+    counts = run.fill_states(times, bounds, rows.view(np.uint8))
     if counts:
         whole = [_whole(text) if text else int(row) for text, row in zip(counts, rows["count"])]
         rows = _replace_column(rows, "count", whole)
     return rows.reshape(shape)
+
+
+def _plain(value: Any) -> Any:
+    """A number of Python instead of one of NumPy."""
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _states(run: _piblocks.Run, times: Any, bounds: bool, shape: tuple[int, ...]) -> Any:
+    """An array of states, or the one state of the shape ()."""
+    rows = _fill(run, times, bounds, shape or (1,))
+    one = rows if shape else rows[0]
+    names = rows.dtype.names or ()
+    if "positions" not in names:
+        return one if shape else State(*(_plain(one[name]) for name in names))
+    arrays = {name: np.ascontiguousarray(one[name]) for name in names[2:]}
+    for name in ("positions", "velocities"):
+        arrays[name] = arrays[name].reshape(*shape, *run.shape)
+    return BodiesState(_plain(one["time"]), _plain(one["count"]), **arrays)
 
 
 def state(run: _piblocks.Run, t: Any, bounds: bool) -> Any:
@@ -149,8 +175,7 @@ def state(run: _piblocks.Run, t: Any, bounds: bool) -> Any:
         array[:] = t
         t = array
     if not isinstance(t, np.ndarray):
-        row = _fill(run, [instant("t", t)], bounds, (1,))[0]
-        return State(*(value.item() if hasattr(value, "item") else value for value in row))
+        return _states(run, [instant("t", t)], bounds, ())
     if t.dtype == np.float64 or np.issubdtype(t.dtype, np.integer) and t.dtype.itemsize <= 4:
-        return _fill(run, np.ascontiguousarray(t, np.float64).ravel(), bounds, t.shape)
-    return _fill(run, [instant("t", one) for one in t.ravel()], bounds, t.shape)
+        return _states(run, np.ascontiguousarray(t, np.float64).ravel(), bounds, t.shape)
+    return _states(run, [instant("t", one) for one in t.ravel()], bounds, t.shape)
