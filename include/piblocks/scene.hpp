@@ -189,9 +189,6 @@ struct Scene {
   Golden golden = {};
 };
 
-/// Whether the bodies are blue, red and a wall, which scene files, tables and messages call so.
-bool has_short_names(const Scene& scene);
-
 /// Red's width where widths tell masses: blue's, and an eighth more for every factor of a hundred
 /// in mass, from half of blue's to half as wide again, so that any ratio can be drawn.
 Rational width_by_mass(const BlockSystem& system);

@@ -215,8 +215,6 @@ void check_line(const char* key, std::string_view text, SceneProblems& problems)
   problems.require(!has_control_characters(text), key, "must be one line of text");
 }
 
-bool has_short_names(const Scene& scene) { return !scene.bodies; }
-
 Rational width_by_mass(const BlockSystem& system) {
   if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
   // Either mass may be beyond the range of a double.

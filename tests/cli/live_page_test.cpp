@@ -76,9 +76,9 @@ class LivePageTest : public CliFixture {
     place(kPage);
   }
 
-  static fs::path root() { return prefix_->path() / "root"; }
+  static fs::path tree() { return prefix_->path() / "tree"; }
   // As deep as a build folder in its source tree.
-  static fs::path bin() { return root() / "build" / "release"; }
+  static fs::path bin() { return tree() / "build" / "release"; }
   static fs::path page_file() { return bin() / "../share/piblocks/piblocks.html"; }
 
   static void place(const std::string& page, const fs::path& file = page_file()) {
@@ -270,12 +270,12 @@ TEST_F(LivePageTest, IsFoundFromTheBuildFolder) {
     GTEST_SKIP() << "the build folder is " << PIBLOCKS_PAGE_FROM_BUILD;
   }
   fs::remove(page_file());
-  place(kPage, root() / "out" / "piblocks.html");
+  place(kPage, tree() / "out" / "piblocks.html");
   expect_failure({"--live"}, 1, "No such file");
   std::ofstream(bin() / "CMakeCache.txt") << "";
   EXPECT_EQ(scene_in(written({"--digits", "2"})), "red.mass = 100\n");
-  place(kBefore, root() / "out" / "piblocks.html");
-  expect_failure({"--live"}, 1, "/root/out/piblocks.html': it has no '<script");
+  place(kBefore, tree() / "out" / "piblocks.html");
+  expect_failure({"--live"}, 1, "/tree/out/piblocks.html': it has no '<script");
 }
 
 TEST_F(LivePageTest, IsNotWrittenOverWhatItIsMadeOf) {

@@ -5,6 +5,7 @@
 #include <piblocks/script.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +16,9 @@
 #include "draw/layout.hpp"
 
 namespace piblocks {
+
+inline constexpr std::array kThemeNames{"article", "lecture", "lecture-light", "chalkboard",
+                                        "dark",    "print",   "colorblind"};
 
 using Setting = std::pair<const char*, std::string>;
 
