@@ -11,50 +11,47 @@ namespace {
 using testing_support::Pixels;
 using testing_support::random_frame;
 
-TEST(ChangedPicture, KnowsTheLeastRectangleAndEachPixelOfIt) {
-  Pixels pixels = random_frame(40, 30, 1);
-  ChangedPicture picture(40, 30);
-  const PixelRect whole{0, 0, 40, 30};
-  picture.take(pixels.view(), {&whole, 1});
-  EXPECT_EQ(picture.changed(), whole);
-  picture.settle();
-  pixels.at(7, 5) ^= 0x010000;
-  pixels.at(20, 11) ^= 0x000001;
-  picture.take(pixels.view(), {&whole, 1});
-  EXPECT_EQ(picture.changed(), (PixelRect{7, 5, 14, 7}));
+class ChangedPictureTest : public testing::Test {
+ protected:
+  ChangedPictureTest() {
+    picture_.take(pixels_.view(), {&kWhole, 1});
+    EXPECT_EQ(picture_.changed(), kWhole);
+    picture_.settle();
+  }
+  PixelRect changed_in(const PixelRect& rect) {
+    picture_.take(pixels_.view(), {&rect, 1});
+    return picture_.changed();
+  }
+
+  static constexpr PixelRect kWhole{0, 0, 40, 30};
+  static constexpr PixelRect kNothing{0, 0, 1, 1};
+  Pixels pixels_ = random_frame(40, 30, 1);
+  ChangedPicture picture_{40, 30};
+};
+
+TEST_F(ChangedPictureTest, KnowsTheLeastRectangleAndEachPixelOfIt) {
+  pixels_.at(7, 5) ^= 0x010000;
+  pixels_.at(20, 11) ^= 0x000001;
+  EXPECT_EQ(changed_in(kWhole), (PixelRect{7, 5, 14, 7}));
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {
-      EXPECT_EQ(picture.row(y)[x], pixels.at(x, y));
-      EXPECT_EQ(picture.marks(y)[x], (x == 7 && y == 5) || (x == 20 && y == 11)) << x << ' ' << y;
+      EXPECT_EQ(picture_.row(y)[x], pixels_.at(x, y));
+      EXPECT_EQ(picture_.marks(y)[x], (x == 7 && y == 5) || (x == 20 && y == 11)) << x << ' ' << y;
     }
   }
-  picture.settle();
-  picture.take(pixels.view(), {&whole, 1});
-  EXPECT_EQ(picture.changed(), (PixelRect{0, 0, 1, 1})) << "nothing has changed";
+  picture_.settle();
+  EXPECT_EQ(changed_in(kWhole), kNothing);
 }
 
-TEST(ChangedPicture, LooksAtTheGivenRectanglesAlone) {
-  Pixels pixels = random_frame(40, 30, 2);
-  ChangedPicture picture(40, 30);
-  const PixelRect whole = picture.whole();
-  picture.take(pixels.view(), {&whole, 1});
-  picture.settle();
-  pixels.at(3, 3) ^= 1;
-  pixels.at(30, 20) ^= 1;
-  const PixelRect part{0, 0, 10, 10};
-  picture.take(pixels.view(), {&part, 1});
-  EXPECT_EQ(picture.changed(), (PixelRect{3, 3, 1, 1}));
+TEST_F(ChangedPictureTest, LooksAtTheGivenRectanglesAlone) {
+  pixels_.at(3, 3) ^= 1;
+  pixels_.at(30, 20) ^= 1;
+  EXPECT_EQ(changed_in({0, 0, 10, 10}), (PixelRect{3, 3, 1, 1}));
 }
 
-TEST(ChangedPicture, WhatIsInPlaceOfAnOpaquePixelsAlphaDoesNotMatter) {
-  Pixels pixels = random_frame(4, 3, 3);
-  ChangedPicture picture(4, 3);
-  const PixelRect whole = picture.whole();
-  picture.take(pixels.view(), {&whole, 1});
-  picture.settle();
-  pixels.at(2, 1) &= 0x00ffffff;
-  picture.take(pixels.view(), {&whole, 1});
-  EXPECT_EQ(picture.changed(), (PixelRect{0, 0, 1, 1}));
+TEST_F(ChangedPictureTest, WhatIsInPlaceOfAnOpaquePixelsAlphaDoesNotMatter) {
+  pixels_.at(2, 1) &= 0x00ffffff;
+  EXPECT_EQ(changed_in(kWhole), kNothing);
 }
 
 }  // namespace

@@ -67,13 +67,10 @@ struct SampleGrid {
     const double left = std::floor(x);
     const double top = std::floor(y);
     const auto row = [&](int at) {
-      return at_row(int(left), at) * (1 - (x - left)) + at_row(int(left) + 1, at) * (x - left);
+      return this->at(int(left), at) * (1 - (x - left)) + this->at(int(left) + 1, at) * (x - left);
     };
     return row(int(top)) * (1 - (y - top)) + row(int(top) + 1) * (y - top);
   }
-
- private:
-  double at_row(int x, int y) const { return at(x, y); }
 };
 
 std::vector<SampleGrid> fill(Random& random, AVFrame& frame) {

@@ -20,15 +20,17 @@ using testing_support::Pixels;
 using testing_support::random_frame;
 using testing_support::TemporaryFolder;
 
-Pixels decoded(const std::vector<std::uint8_t>& png) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "image.png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-  return testing_support::decode_video(folder / "image.png").frames.at(0).rgb;
+/// A picture in a file.
+std::string saved(const TemporaryFolder& folder, const ImageView& image) {
+  const std::vector<std::uint8_t> png = encode_png(image);
+  std::ofstream(folder / "a.png", std::ios::binary) << std::string(png.begin(), png.end());
+  return folder / "a.png";
 }
 
 void expect_same_pixels(const Pixels& image) {
-  const Pixels read_back = decoded(encode_png(image.view()));
+  const TemporaryFolder folder;
+  const auto video = testing_support::decode_video(saved(folder, image.view()));
+  const Pixels& read_back = video.frames.at(0).rgb;
   ASSERT_EQ(read_back.width_px, image.width_px);
   ASSERT_EQ(read_back.height_px, image.height_px);
   EXPECT_TRUE(read_back.words == image.words) << image.width_px << 'x' << image.height_px;
@@ -138,10 +140,7 @@ TEST(Png, KeepsAlphaAndTheColoursAsTheyWereBefore) {
   SCOPED_TRACE(random.trace());
   const TemporaryFolder folder;
   const Pixels image = transparent_frame(random, 61, 47);
-  const auto png = encode_png(with_alpha(image));
-  std::ofstream(folder / "a.png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-  const Image read = read_png(folder / "a.png");
+  const Image read = read_png(saved(folder, with_alpha(image)));
   for (std::size_t i = 0; i < image.words.size(); ++i) {
     const std::uint32_t alpha = image.words[i] >> 24;
     ASSERT_EQ(read.words[i] >> 24, alpha);
@@ -170,10 +169,8 @@ TEST(Png, AnUpdateWithAlphaGivesTheBytesOfTheImageAlone) {
 TEST(Png, IsWhatPngcheckAccepts) {
   const TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1, 1}, {640, 363}}) {
-    const auto png = encode_png(article_frame(width, height, 1.5).view());
-    std::ofstream(folder / "image.png", std::ios::binary)
-        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-    const std::string command = "pngcheck -q '" + (folder / "image.png") + "'";
+    const std::string file = saved(folder, article_frame(width, height, 1.5).view());
+    const std::string command = "pngcheck -q '" + file + "'";
     if (std::system("command -v pngcheck > /dev/null") != 0) GTEST_SKIP() << "no pngcheck here";
     EXPECT_EQ(std::system(command.c_str()), 0);
   }

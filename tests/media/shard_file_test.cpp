@@ -115,38 +115,43 @@ TEST(ShardFile, HoldsWhatWasWrittenAndPassesOverSound) {
   }
 }
 
-TEST(ShardFile, NoticesThatItWasCutOffAnywhere) {
-  const TemporaryFolder folder;
-  Random random(2);
-  const EncodedChunk sound = random_sound(random, 3);
-  write(folder / "whole", sound, {random_chunk(random), random_chunk(random)});
-  const std::string whole = file_contents(folder / "whole");
-  const std::size_t end_of_sound = whole.find("\n\n") + 2 + kRecord_bytes + bytes_of(sound);
-  for (std::size_t size = 0; size < whole.size(); ++size) {
-    write_text(folder / "cut", whole.substr(0, size));
-    EXPECT_THROW(read_all(folder / "cut"), Error) << size;
-    if (size < end_of_sound) {
-      EXPECT_THROW(sound_in(folder / "cut"), Error) << size;
+class DamagedShard : public testing::Test {
+ protected:
+  DamagedShard() {
+    Random random(2);
+    const EncodedChunk sound = random_sound(random, 3);
+    write(folder_ / "whole", sound, {random_chunk(random), random_chunk(random)});
+    whole_ = file_contents(folder_ / "whole");
+    first_record_ = whole_.find("\n\n") + 2;
+    end_of_sound_ = first_record_ + kRecord_bytes + bytes_of(sound);
+  }
+  /// @param at  where the damage begins
+  void expect_noticed(const std::string& bytes, std::size_t at) const {
+    write_text(folder_ / "damaged", bytes);
+    EXPECT_THROW(read_all(folder_ / "damaged"), Error) << at;
+    if (at < end_of_sound_) {
+      EXPECT_THROW(sound_in(folder_ / "damaged"), Error) << at;
     }
+  }
+
+  TemporaryFolder folder_;
+  std::string whole_;
+  std::size_t first_record_ = 0;
+  std::size_t end_of_sound_ = 0;
+};
+
+TEST_F(DamagedShard, ThatIsCutOffAnywhereIsNoticed) {
+  for (std::size_t size = 0; size < whole_.size(); ++size) {
+    expect_noticed(whole_.substr(0, size), size);
   }
 }
 
-TEST(ShardFile, NoticesThatOneBitHasChanged) {
-  const TemporaryFolder folder;
-  Random random(3);
-  const EncodedChunk sound = random_sound(random, 3);
-  write(folder / "whole", sound, {random_chunk(random), random_chunk(random)});
-  const std::string whole = file_contents(folder / "whole");
-  const std::size_t end_of_sound = whole.find("\n\n") + 2 + kRecord_bytes + bytes_of(sound);
-  for (std::size_t at = whole.find("\n\n") + 2; at < whole.size(); ++at) {
+TEST_F(DamagedShard, WithOneOtherBitIsNoticed) {
+  for (std::size_t at = first_record_; at < whole_.size(); ++at) {
     for (int bit = 0; bit < 8; ++bit) {
-      std::string changed = whole;
+      std::string changed = whole_;
       changed[at] = static_cast<char>(changed[at] ^ (1 << bit));
-      write_text(folder / "changed", changed);
-      EXPECT_THROW(read_all(folder / "changed"), Error) << at << ", " << bit;
-      if (at < end_of_sound) {
-        EXPECT_THROW(sound_in(folder / "changed"), Error) << at << ", " << bit;
-      }
+      expect_noticed(changed, at);
     }
   }
 }

@@ -2,11 +2,9 @@
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <string>
@@ -341,51 +339,6 @@ TEST(Y4m, HasTheHeaderAndThePlanesOfEveryFrame) {
     expected += "FRAME\n" + std::string(planes.begin(), planes.end());
   }
   EXPECT_TRUE(file_contents(folder / "out.y4m") == expected);
-}
-
-/// Sends standard output to a descriptor while it lives.
-class RedirectedOutput {
- public:
-  explicit RedirectedOutput(int descriptor) {
-    std::fflush(stdout);
-    saved_ = ::dup(STDOUT_FILENO);
-    ::dup2(descriptor, STDOUT_FILENO);
-  }
-  ~RedirectedOutput() {
-    std::fflush(stdout);
-    ::dup2(saved_, STDOUT_FILENO);
-    ::close(saved_);
-  }
-  RedirectedOutput(const RedirectedOutput&) = delete;
-  RedirectedOutput& operator=(const RedirectedOutput&) = delete;
-
- private:
-  int saved_ = -1;
-};
-
-TEST(Y4m, GoesToStandardOutputAsToAFile) {
-  const TemporaryFolder folder;
-  write_frames(folder / "out.y4m", kSmall, {}, 5, article_frames(kSmall));
-  std::FILE* file = std::fopen((folder / "stdout").c_str(), "wb");
-  {
-    const RedirectedOutput redirected(::fileno(file));
-    write_frames("-", kSmall, {}, 5, article_frames(kSmall));
-  }
-  std::fclose(file);
-  EXPECT_TRUE(file_contents(folder / "out.y4m") == file_contents(folder / "stdout"));
-}
-
-TEST(Y4m, AClosedPipeIsAnError) {
-  int ends[2];
-  ASSERT_EQ(::pipe(ends), 0);
-  ::close(ends[0]);
-  const auto handler = std::signal(SIGPIPE, SIG_IGN);  // as the command line does
-  {
-    const RedirectedOutput redirected(ends[1]);
-    EXPECT_THROW(write_frames("-", kSmall, {}, 5, article_frames(kSmall)), IoError);
-  }
-  std::signal(SIGPIPE, handler);
-  ::close(ends[1]);
 }
 
 TEST(Framehash, IsWhatFfmpegSaysOfTheSameFrames) {

@@ -85,6 +85,8 @@ struct Picture {
         cb(width / chroma, height / chroma, filling),
         cr(width / chroma, height / chroma, filling),
         alpha(width, height, filling) {}
+  YuvView<Sample> view() { return {y.view(), cb.view(), cr.view(), alpha.view()}; }
+
   Plane<Sample> y, cb, cr, alpha;
 };
 
@@ -102,9 +104,7 @@ TEST(Yuva444p10, EverySampleIsTheNearest) {
   SCOPED_TRACE(random.trace());
   const Pixels pixels = random_pixels(random, 601, 403);
   Picture<std::uint16_t> picture(601, 403, 1);
-  convert_to_yuva444p10(
-      view_of(pixels), {0, 0, 601, 403},
-      {picture.y.view(), picture.cb.view(), picture.cr.view(), picture.alpha.view()});
+  convert_to_yuva444p10(view_of(pixels), {0, 0, 601, 403}, picture.view());
   for (int y = 0; y < 403; ++y) {
     for (int x = 0; x < 601; ++x) {
       Light light;
@@ -133,9 +133,7 @@ TEST(Yuva420, EverySampleIsTheNearestAndChromaIsWeightedByAlpha) {
   SCOPED_TRACE(random.trace());
   const Pixels pixels = random_pixels(random, 402, 202);
   Picture<std::uint8_t> picture(402, 202, 2);
-  convert_to_yuva420(
-      view_of(pixels), {0, 0, 402, 202},
-      {picture.y.view(), picture.cb.view(), picture.cr.view(), picture.alpha.view()});
+  convert_to_yuva420(view_of(pixels), {0, 0, 402, 202}, picture.view());
   for (int y = 0; y < 202; ++y) {
     for (int x = 0; x < 402; ++x) {
       Light light;
@@ -161,9 +159,7 @@ TEST(Yuva420, AnEdgeKeepsItsColour) {
   Pixels pixels(8, 2);
   for (int i = 0; i < 16; ++i) pixels.words[std::size_t(i)] = i % 8 < 4 ? 0xffd63028 : 0;
   Picture<std::uint8_t> picture(8, 2, 2);
-  convert_to_yuva420(
-      view_of(pixels), {0, 0, 8, 2},
-      {picture.y.view(), picture.cb.view(), picture.cr.view(), picture.alpha.view()});
+  convert_to_yuva420(view_of(pixels), {0, 0, 8, 2}, picture.view());
   for (const int x : {0, 1, 2}) {
     EXPECT_EQ(picture.cb.at(x, 0), picture.cb.at(0, 0));
     EXPECT_EQ(picture.cr.at(x, 0), picture.cr.at(0, 0));
@@ -177,8 +173,7 @@ TEST(Yuva420, AChangeReachesNoSampleOutsideOfItsAlignedRectangle) {
   for (int i = 0; i < 200; ++i) {
     Pixels pixels = random_pixels(random, 12, 8);
     const auto convert = [&](const PixelRect& rect, Picture<std::uint8_t>& to) {
-      convert_to_yuva420(view_of(pixels), rect,
-                         {to.y.view(), to.cb.view(), to.cr.view(), to.alpha.view()});
+      convert_to_yuva420(view_of(pixels), rect, to.view());
     };
     Picture<std::uint8_t> picture(12, 8, 2);
     convert({0, 0, 12, 8}, picture);
