@@ -116,18 +116,20 @@ TEST(PredictMoved, IsInterPredictionInsideAndOutsideThePicture) {
   }
 }
 
+/// Beside macroblocks that stay.
+const MacroblockState kSkipped;
+const Neighbours kBesideStill = {&kSkipped, &kSkipped, &kSkipped};
+
 TEST(MotionSearch, FindsWhatSlidOrScrolled) {
   Random random(16);
   SCOPED_TRACE(random.trace());
   const Picture before = noise(random, 8, 8);
-  const MacroblockState still;
   for (const MotionVector moved :
        {MotionVector{3, 0}, {-17, 0}, {48, 0}, {0, 1}, {0, -48}, {16, 0}, {-1, 0}}) {
     Samples source;
     predict_moved(before, 4, 4, moved, source);
     MotionSearch search(14);
-    EXPECT_EQ(search.find(source, before, 4, 4, {&still, &still, &still}), moved)
-        << moved.x << ", " << moved.y;
+    EXPECT_EQ(search.find(source, before, 4, 4, kBesideStill), moved) << moved.x << ", " << moved.y;
   }
 }
 
@@ -135,34 +137,30 @@ TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) 
   Random random(61);
   SCOPED_TRACE(random.trace());
   const Picture before = noise(random, 8, 8);
-  const MacroblockState still;
-  const Neighbours neighbours = {&still, &still, &still};
   Samples other;
   noise(random, 8, 8).load(1, 1, other);
   Samples slid;
   predict_moved(before, 4, 4, {5, 0}, slid);
   MotionSearch search(14);
-  for (int i = 0; i < 20; ++i) EXPECT_FALSE(search.find(other, before, 4, 4, neighbours));
-  EXPECT_FALSE(search.find(slid, before, 4, 4, neighbours)) << "it has given up for this picture";
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(search.find(other, before, 4, 4, kBesideStill));
+  EXPECT_FALSE(search.find(slid, before, 4, 4, kBesideStill)) << "it has given up for this picture";
   search.begin_picture(0);
-  EXPECT_EQ(search.find(slid, before, 4, 4, neighbours), (MotionVector{5, 0}));
+  EXPECT_EQ(search.find(slid, before, 4, 4, kBesideStill), (MotionVector{5, 0}));
 }
 
 TEST(MotionSearch, GoesFarWhereMuchHasChanged) {
   Random random(3);
   SCOPED_TRACE(random.trace());
   const Picture before = noise(random, 3, 20);
-  const MacroblockState still;
-  const Neighbours neighbours = {&still, &still, &still};
   Samples other;
   noise(random, 3, 20).load(1, 1, other);
   for (const int changed : {0, 640}) {
     MotionSearch search(14);
     search.begin_picture(changed);
-    for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.find(other, before, 1, 4, neighbours));
+    for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.find(other, before, 1, 4, kBesideStill));
     Samples source;
     predict_moved(before, 1, 4, {0, 100}, source);
-    EXPECT_EQ(search.find(source, before, 1, 4, neighbours).has_value(), changed > 0) << changed;
+    EXPECT_EQ(search.find(source, before, 1, 4, kBesideStill).has_value(), changed > 0) << changed;
   }
 }
 
@@ -170,26 +168,23 @@ TEST(MotionSearch, TakesWhatACoarserQuantiserLeavesForTheSame) {
   Random random(4);
   SCOPED_TRACE(random.trace());
   const Picture before = noise(random, 8, 8);
-  const MacroblockState still;
-  const Neighbours neighbours = {&still, &still, &still};
   Samples source;
   predict_moved(before, 4, 4, {5, 0}, source);
   for (int i = 0; i < 256; ++i) source.plane(0)[i] ^= 4;  // a sum of 1024
-  EXPECT_FALSE(MotionSearch(14).find(source, before, 4, 4, neighbours));
-  EXPECT_EQ(MotionSearch(26).find(source, before, 4, 4, neighbours), (MotionVector{5, 0}));
+  EXPECT_FALSE(MotionSearch(14).find(source, before, 4, 4, kBesideStill));
+  EXPECT_EQ(MotionSearch(26).find(source, before, 4, 4, kBesideStill), (MotionVector{5, 0}));
 }
 
 TEST(MotionSearch, StaysWithinTheRangeOfAllLevelsWhereMotionSpeedsUp) {
   Random random(48);
   SCOPED_TRACE(random.trace());
   const Picture before = noise(random, 3, 28);
-  const MacroblockState still;
   MotionSearch search(14);
   for (int distance = 40; distance <= 140; ++distance) {
     Samples source;
     predict_moved(before, 1, 10, {0, distance}, source);
     search.begin_picture(0);
-    const auto found = search.find(source, before, 1, 10, {&still, &still, &still});
+    const auto found = search.find(source, before, 1, 10, kBesideStill);
     EXPECT_EQ(found.has_value(), distance <= 120) << distance;
   }
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "support/property.hpp"
 
@@ -89,23 +90,9 @@ int scaled(int level, int qp, std::size_t i, std::size_t j) {
   return (level * scale + (1 << (3 - qp / 6))) >> (4 - qp / 6);
 }
 
-/// Figure 8-8 (a): row and column of the k-th level.
-constexpr std::array<std::array<std::size_t, 2>, 16> kZigZag = {{{0, 0},
-                                                                 {0, 1},
-                                                                 {1, 0},
-                                                                 {2, 0},
-                                                                 {1, 1},
-                                                                 {0, 2},
-                                                                 {0, 3},
-                                                                 {1, 2},
-                                                                 {2, 1},
-                                                                 {3, 0},
-                                                                 {3, 1},
-                                                                 {2, 2},
-                                                                 {1, 3},
-                                                                 {2, 3},
-                                                                 {3, 2},
-                                                                 {3, 3}}};
+/// Figure 8-8 (a): where the k-th level is, 4 times its row and its column.
+constexpr std::array<std::size_t, 16> kZigZag = {0, 1,  4,  8,  5, 2,  3,  6,
+                                                 9, 12, 13, 10, 7, 11, 14, 15};
 
 /// The largest of the numbers that a conforming stream keeps within 16 bits (8.5.12.2).
 class Range {
@@ -193,7 +180,8 @@ void check_block(const Quantiser& quantiser, int qp, Rounding rounding, const Pa
   Levels expected{};
   Matrix scaled_levels{};
   for (std::size_t k = 0; k < 16; ++k) {
-    const auto [i, j] = kZigZag[k];
+    const std::size_t i = kZigZag[k] / 4;
+    const std::size_t j = kZigZag[k] % 4;
     const int level = quantised(wanted[i][j], qp, rounding, i, j);
     expected[k] = static_cast<std::int16_t>(level);
     scaled_levels[i][j] = scaled(level, qp, i, j);
@@ -213,37 +201,39 @@ void check_block(const Quantiser& quantiser, int qp, Rounding rounding, const Pa
   }
 }
 
+/// Every QP and rounding.
+void for_each_quantiser(const std::function<void(const Quantiser&, int, Rounding)>& check) {
+  for (int qp = 0; qp <= 51; ++qp) {
+    for (const Rounding rounding : kRoundings) {
+      SCOPED_TRACE(name_of(qp, rounding));
+      check(Quantiser(qp, rounding), qp, rounding);
+    }
+  }
+}
+
 TEST(Transform, DoesWhatTheClausesSayForEveryQp) {
   constexpr int kBlocks = 500;
   Random random(85);
   SCOPED_TRACE(random.trace());
-  for (int qp = 0; qp <= 51; ++qp) {
-    for (const Rounding rounding : kRoundings) {
-      SCOPED_TRACE(name_of(qp, rounding));
-      const Quantiser quantiser(qp, rounding);
-      Range range;
-      for (int i = 0; i < kBlocks; ++i) {
-        ASSERT_NO_FATAL_FAILURE(check_block(quantiser, qp, rounding, random_pair(random), range));
-      }
-      EXPECT_LT(range.largest, 1 << (qp <= kLastQpIn16Bits ? 15 : 16));
+  for_each_quantiser([&](const Quantiser& quantiser, int qp, Rounding rounding) {
+    Range range;
+    for (int i = 0; i < kBlocks; ++i) {
+      ASSERT_NO_FATAL_FAILURE(check_block(quantiser, qp, rounding, random_pair(random), range));
     }
-  }
+    EXPECT_LT(range.largest, 1 << (qp <= kLastQpIn16Bits ? 15 : 16));
+  });
 }
 
 TEST(Transform, StaysWithin16BitsForTheLargestDifferences) {
   constexpr unsigned kSigns = 1 << 16;
   constexpr unsigned kStep = 5;  // odd: with all QPs, all signs
-  for (int qp = 0; qp <= 51; ++qp) {
-    for (const Rounding rounding : kRoundings) {
-      SCOPED_TRACE(name_of(qp, rounding));
-      const Quantiser quantiser(qp, rounding);
-      Range range;
-      for (unsigned signs = static_cast<unsigned>(qp) % kStep; signs < kSigns; signs += kStep) {
-        ASSERT_NO_FATAL_FAILURE(check_block(quantiser, qp, rounding, extreme_pair(signs), range));
-      }
-      EXPECT_LT(range.largest, 1 << (qp <= kLastQpIn16Bits ? 15 : 16));
+  for_each_quantiser([&](const Quantiser& quantiser, int qp, Rounding rounding) {
+    Range range;
+    for (unsigned signs = static_cast<unsigned>(qp) % kStep; signs < kSigns; signs += kStep) {
+      ASSERT_NO_FATAL_FAILURE(check_block(quantiser, qp, rounding, extreme_pair(signs), range));
     }
-  }
+    EXPECT_LT(range.largest, 1 << (qp <= kLastQpIn16Bits ? 15 : 16));
+  });
 }
 
 /// Coefficients of every size that a block can have, one at a time.
@@ -251,7 +241,8 @@ TEST(Transform, MultipliesCoefficientsOfEverySize) {
   for (int qp = 0; qp <= 51; ++qp) {
     const Quantiser quantiser(qp, Rounding::intra);
     for (std::size_t place = 0; place < 16; ++place) {
-      const auto [i, j] = kZigZag[place];
+      const std::size_t i = kZigZag[place] / 4;
+      const std::size_t j = kZigZag[place] % 4;
       const int weight = (i % 2 == 0 ? 4 : 6) * (j % 2 == 0 ? 4 : 6);
       for (int value = -255 * weight; value <= 255 * weight; value += 251) {
         Coefficients coefficients{};
@@ -337,42 +328,34 @@ Pair worst_pair(int sum, std::size_t i, std::size_t j) {
 TEST(NegligibleSum, LeavesNoLevel) {
   Random random(1);
   SCOPED_TRACE(random.trace());
-  for (int qp = 0; qp <= 51; ++qp) {
-    for (const Rounding rounding : kRoundings) {
-      SCOPED_TRACE(name_of(qp, rounding));
-      const Quantiser quantiser(qp, rounding);
-      const int sum = quantiser.negligible_sum();
-      for (std::size_t place = 0; place < 16; ++place) {
-        EXPECT_EQ(levels_of(quantiser, worst_pair(sum, place / 4, place % 4)), 0) << place;
-      }
-      for (int n = 0; n < 200; ++n) {
-        Pair pair = random_pair(random);
-        int left = sum;
-        for (std::size_t i = 0; i < 16; ++i) {
-          const int difference = std::clamp(pair.source[i] - pair.predicted[i], -left, left);
-          pair.source[i] = static_cast<std::uint8_t>(pair.predicted[i] + difference);
-          left -= std::abs(difference);
-        }
-        ASSERT_LE(sum_of_differences(pair.source, pair.predicted), sum);
-        EXPECT_EQ(levels_of(quantiser, pair), 0);
-      }
+  for_each_quantiser([&](const Quantiser& quantiser, int, Rounding) {
+    const int sum = quantiser.negligible_sum();
+    for (std::size_t place = 0; place < 16; ++place) {
+      EXPECT_EQ(levels_of(quantiser, worst_pair(sum, place / 4, place % 4)), 0) << place;
     }
-  }
+    for (int n = 0; n < 200; ++n) {
+      Pair pair = random_pair(random);
+      int left = sum;
+      for (std::size_t i = 0; i < 16; ++i) {
+        const int difference = std::clamp(pair.source[i] - pair.predicted[i], -left, left);
+        pair.source[i] = static_cast<std::uint8_t>(pair.predicted[i] + difference);
+        left -= std::abs(difference);
+      }
+      ASSERT_LE(sum_of_differences(pair.source, pair.predicted), sum);
+      EXPECT_EQ(levels_of(quantiser, pair), 0);
+    }
+  });
 }
 
 TEST(NegligibleSum, IsTheLargestOne) {
-  for (int qp = 0; qp <= 51; ++qp) {
-    for (const Rounding rounding : kRoundings) {
-      SCOPED_TRACE(name_of(qp, rounding));
-      const Quantiser quantiser(qp, rounding);
-      int levels = 0;
-      for (std::size_t place = 0; place < 16; ++place) {
-        const Pair pair = worst_pair(quantiser.negligible_sum() + 1, place / 4, place % 4);
-        levels += levels_of(quantiser, pair);
-      }
-      EXPECT_GT(levels, 0);
+  for_each_quantiser([&](const Quantiser& quantiser, int, Rounding) {
+    int levels = 0;
+    for (std::size_t place = 0; place < 16; ++place) {
+      const Pair pair = worst_pair(quantiser.negligible_sum() + 1, place / 4, place % 4);
+      levels += levels_of(quantiser, pair);
     }
-  }
+    EXPECT_GT(levels, 0);
+  });
 }
 
 }  // namespace
