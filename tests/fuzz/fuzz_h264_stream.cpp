@@ -46,23 +46,15 @@ PictureRate rate_of(const Config& config) {
 
 /// One that some level holds.
 Config config_of(Numbers& numbers) {
-  constexpr std::array<std::array<int, 2>, 10> kRates = {{{60, 1},
-                                                          {30000, 1001},
-                                                          {1, 1},
-                                                          {1, 30},
-                                                          {172, 1},
-                                                          {360, 1},
-                                                          {990, 1},
-                                                          {11880, 1},
-                                                          {65535, 2},
-                                                          {500'000, 1}}};
+  constexpr std::array kNumerators = {60, 30000, 1, 1, 172, 360, 990, 11880, 65535, 500'000};
+  constexpr std::array kDenominators = {1, 1001, 1, 30, 1, 1, 1, 1, 2, 1};
   Config config;
   config.width_px = 2 * numbers.integer(1, 48);
   config.height_px = 2 * numbers.integer(1, 40);
   config.qp = numbers.integer(0, kMaxQp);
-  const auto& rate = kRates[static_cast<std::size_t>(numbers.integer(0, kRates.size() - 1))];
-  config.rate_numerator = rate[0];
-  config.rate_denominator = rate[1];
+  const auto rate = static_cast<std::size_t>(numbers.integer(0, kNumerators.size() - 1));
+  config.rate_numerator = kNumerators[rate];
+  config.rate_denominator = kDenominators[rate];
   return config;
 }
 
