@@ -55,17 +55,14 @@ inline constexpr int kMaxDigits = 100'000;
 /// @throws UsageError unless 1 <= digits <= kMaxDigits and kMinBase <= base <= kMaxBase.
 Rational mass_ratio_of(int digits, int base = kUsualBase);
 
-/// The article's system with red that many times as heavy as blue.
+/// The article's blocks, with red that many times as heavy as blue.
 /// @throws UsageError as mass_ratio_of()
-BlockSystem article_system(int digits, int base = kUsualBase);
+BlockSystem article_blocks(int digits, int base = kUsualBase);
 
 /// What is wrong with one value of a scene.
 struct Problem {
   std::string key;     ///< as in a scene file: "red.mass"
   std::string reason;  ///< with the value: "= -1: must be greater than 0"
 };
-
-/// Everything that is wrong with a system; empty if nothing is.
-std::vector<Problem> problems_of(const BlockSystem& system);
 
 }  // namespace piblocks

@@ -23,6 +23,7 @@ struct Body {
   ExactVector position = {};         ///< of the centre, at time 0
   ExactVector velocity = {};         ///< at time 0; 0 for a body without mass
   Rational size = 1;                 ///< > 0; the width of a block, the radius of a disc
+  std::string name = {};             ///< in keys and messages, as "blue"; else its number
 };
 
 /// A straight wall that no collision moves. Bodies are on the side to which the normal points.
@@ -37,15 +38,34 @@ struct BodySystem {
   int dimensions = 1;  ///< 1: blocks on the x axis; 2: discs
   std::vector<Body> bodies = {};
   std::vector<Wall> walls = {};
+  /// Coefficients of restitution: what share of the speed at which two bodies approach each other
+  /// they have when they part; 0 (they stay together) … 1 (elastic). Less than 1 only where there
+  /// are two blocks beside something immovable.
+  Rational restitution = 1;
+  Rational wall_restitution = 1;  ///< of a body and something immovable
 };
+
+/// Whether collisions keep the energy.
+inline bool is_elastic(const BodySystem& system) {
+  return system.restitution == 1 && system.wall_restitution == 1;
+}
+
+/// Whether the bodies are blue, red and a wall on their left, which scene files, tables and
+/// messages call so.
+bool has_short_names(const BodySystem& system);
+
+/// The article's system, with red that many times as heavy as blue.
+/// @throws UsageError as mass_ratio_of()
+BodySystem article_system(int digits, int base = kUsualBase);
 
 /// Most bodies of a system. A scene file has room for fewer: kMaxSceneFile_bytes in script.hpp.
 inline constexpr std::size_t kMaxBodies = 100'000;
 inline constexpr std::size_t kMaxWalls = 16;
 
 /// Everything that is wrong with a system; empty if nothing is. Keys are "body 3.mass", counted
-/// from 1, "wall 1.normal", "body" and "wall". If discs overlap, it names some; the others do not
-/// overlap. It takes about n log n steps for n bodies, whatever their places and sizes are.
+/// from 1, or "blue.mass" of a body with that name; "wall 1.normal", "body" and "wall". If discs
+/// overlap, it names some; the others do not overlap. It takes about n log n steps for n bodies,
+/// whatever their places and sizes are.
 std::vector<Problem> problems_of(const BodySystem& system);
 
 /// Whether collisions may never end: a body is in a closed box, or can return to two immovable
@@ -64,7 +84,7 @@ struct TwoBlocks {
 
 /// The blocks of a system that is nothing but that; nothing for all others.
 std::optional<TwoBlocks> two_blocks_of(const BodySystem& system);
-/// The same as bodies: blue, red, and a wall.
-TwoBlocks two_blocks_of(const BlockSystem& blocks);
+/// The same as bodies: blue, red, and a wall, with these names.
+BodySystem system_of(const BlockSystem& blocks);
 
 }  // namespace piblocks

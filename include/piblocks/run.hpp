@@ -169,18 +169,23 @@ enum class Engine {
 inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws UsageError if an engine would have to store more than kMaxStoredCollisions, or is not
+/// @throws UsageError unless they are two blocks beside something immovable; if an engine would
+/// have to store more than kMaxStoredCollisions, or is not
 ///         the closed form and collisions are not elastic, or the closed form is asked for a mass
 ///         ratio beyond 2^2000 of elastic blocks.
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
-std::unique_ptr<CollisionLog> make_collision_log(const TwoBlocks& blocks,
+std::unique_ptr<CollisionLog> make_collision_log(const BodySystem& system,
                                                  Engine engine = Engine::unfolded);
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
                                                  Engine engine = Engine::unfolded);
 
-/// Number of collisions of the whole run, decided beyond doubt at any mass ratio, without a log.
+/// Number of collisions of the whole run. Of two blocks it is decided beyond doubt at any mass
+/// ratio, without a log.
+/// @param horizon  as make_log()
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws UsageError if they are infinitely many: collapse_of() in restitution.hpp.
+/// @throws UsageError if they are infinitely many: collapse_of() in restitution.hpp; or as
+///         Log::last().
+Integer count_collisions(const BodySystem& system, const std::optional<Rational>& horizon = {});
 Integer count_collisions(const BlockSystem& system);
 
 /// A run whose collisions all happen at once, in the corner of wall and blocks. Their number
@@ -193,7 +198,6 @@ struct Corner {
 };
 
 /// The corner of a system that has collisions, finitely many, and has them all at once.
-/// @throws SceneError if problems_of(system) is not empty.
 std::optional<Corner> corner_of(const BlockSystem& system);
 
 }  // namespace piblocks

@@ -172,15 +172,9 @@ struct BodyStyle {
   std::string label = {};                                 ///< one line of UTF-8, on it or above it
 };
 
-/// What is simulated instead of blue, red and the wall.
-struct Bodies {
-  BodySystem system;
-  std::vector<BodyStyle> styles;  ///< one for each body
-};
-
 struct Scene {
-  BlockSystem system;
-  std::optional<Bodies> bodies = {};  ///< if there are any, `system` is not used
+  BodySystem system = article_system(3);
+  std::vector<BodyStyle> styles = {{}, {}};  ///< one for each body
   View view;
   TimeSpan time;
   Pacing pacing = {};
@@ -191,7 +185,7 @@ struct Scene {
 
 /// Red's width where widths tell masses: blue's, and an eighth more for every factor of a hundred
 /// in mass, from half of blue's to half as wide again, so that any ratio can be drawn.
-Rational width_by_mass(const BlockSystem& system);
+Rational width_by_mass(const Body& blue, const Body& red);
 
 /// Everything that is wrong with a scene; empty if nothing is.
 std::vector<Problem> problems_of(const Scene& scene);

@@ -47,9 +47,8 @@ std::string loss_text(const Rational& loss) {
 }
 
 Integer count_with(const Rational& restitution, int digits, int base) {
-  BlockSystem system = article_system(digits, base);
-  system.blocks_restitution = restitution;
-  system.wall_restitution = restitution;
+  BodySystem system = article_system(digits, base);
+  system.restitution = system.wall_restitution = restitution;
   return count_collisions(system);
 }
 

@@ -39,7 +39,7 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
     out.line(state_text(log.system(), time, state));
   }
   out.finish();
-  note_ties(scene, log, last);
+  note_ties(log, last);
 }
 
 /// All collisions, or those until --to; of two blocks and a wall all are counted without a log.
@@ -49,7 +49,7 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
   const std::optional<Instant> to = options.value("--to", parse_instant);
   std::unique_ptr<Log> log;
   Integer count;
-  if (to || scene.bodies) {
+  if (to || !two_blocks_of(scene.system)) {
     log = log_of(scene);
     const auto until = to ? std::optional(time_of(*to, *log)) : log->horizon();
     count = until ? log->count_at(*until) : log->last();
@@ -58,7 +58,7 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
   if (!log || count == infinite_count(*log)) count = count_collisions(scene.system);
   out.line(count.get_str(scene.show.base));
   out.finish();
-  if (log) note_ties(scene, *log, count);
+  if (log) note_ties(*log, count);
   if (log && log->never_ends() && !to) {
     say("piblocks: note: collisions may go on for ever; these are the ones until time.to = {}\n",
         exact_text(scene.time.to));
@@ -69,7 +69,7 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
 void run_state(const Command& options, const SceneOptions& scene_options) {
   const std::vector<Instant> instants = *options.value("--at", parse_instants);
   const Scene scene = scene_options.scene();
-  if (scene.bodies) return write_bodies(scene, instants, options);
+  if (!has_short_names(scene)) return write_bodies(scene, instants, options);
   const auto log = make_log(scene.system, options);
   const std::optional<Integer> infinite = infinite_count(*log);
   TextOutput out("-");

@@ -209,8 +209,8 @@ void note_sharp(const Script& script) {
       "instant\n");
 }
 
-void note_ties(const Scene& scene, const Log& log, const Integer& last) {
-  if (const auto note = tie_note(scene, log, last)) say("piblocks: note: {}\n", *note);
+void note_ties(const Log& log, const Integer& last) {
+  if (const auto note = tie_note(log, last)) say("piblocks: note: {}\n", *note);
 }
 
 }  // namespace piblocks::cli

@@ -79,6 +79,6 @@ void note_convention(const Script& script);
 void note_sharp(const Script& script);
 /// Says on standard error that the order of pairs decided what happened up to this collision, if it
 /// did.
-void note_ties(const Scene& scene, const Log& log, const Integer& last);
+void note_ties(const Log& log, const Integer& last);
 
 }  // namespace piblocks::cli

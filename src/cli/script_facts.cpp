@@ -9,7 +9,7 @@
 
 namespace piblocks::cli {
 
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options) {
+std::unique_ptr<CollisionLog> make_log(const BodySystem& system, const OptionTexts& options) {
   const auto parse_engine = [](const std::string& text) {
     return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded}, {"events", Engine::events}});
   };
@@ -34,8 +34,8 @@ std::optional<Integer> infinite_count(const Log& log) {
 }
 
 std::optional<std::string> endless_note(const Scene& scene) {
-  if (scene.bodies) return std::nullopt;
-  const std::optional<Collapse> collapse = collapse_of(scene.system);
+  const std::optional<TwoBlocks> pair = two_blocks_of(scene.system);
+  const std::optional<Collapse> collapse = pair ? collapse_of(pair->blocks) : std::nullopt;
   if (!collapse) return std::nullopt;
   const std::string end = collapse->time
                               ? fmt::format(" until the blocks rest at t = {}", collapse->time->hi)
@@ -73,8 +73,8 @@ void claim_logos(OverwriteCheck& check, const Script& script) {
 std::vector<std::string> convention_notes(const Script& script) {
   std::vector<std::string> notes;
   for (const Scene* scene : scenes_of(script)) {
-    if (scene->bodies) continue;
-    const auto corner = corner_of(scene->system);
+    const std::optional<TwoBlocks> pair = two_blocks_of(scene->system);
+    const auto corner = pair ? corner_of(pair->blocks) : std::nullopt;
     if (!corner) continue;
     notes.push_back(fmt::format(
         "all collisions happen at once, at t = {}, when blue touches both wall and red: by "

@@ -20,7 +20,7 @@ namespace piblocks::cli {
 
 /// The system's log, made by the engine that --engine names.
 /// @throws UsageError if that engine would have to store too many collisions.
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options);
+std::unique_ptr<CollisionLog> make_log(const BodySystem& system, const OptionTexts& options);
 
 /// The scene as a log of it is asked for: bodies that collide for ever are computed up to --to, if
 /// that is a time, and have to be certain up to then.

@@ -51,15 +51,13 @@ class Composer {
  public:
   Composer(const Scene& scene, const Log& log, FrameNeeds& needs)
       : scene_(scene),
-        bodies_(bodies_of(scene)),
-        is_article_(scene.view.theme == Theme::article && bodies_.system.dimensions == 1),
-        colors_(colors_of(bodies_, scene.view.theme, two_blocks_of(log))),
+        is_article_(scene.view.theme == Theme::article && scene.system.dimensions == 1),
+        colors_(colors_of(scene, two_blocks_of(log))),
         palette_(log.pair() != nullptr
                      ? palette_of(scene.view.theme, log.pair()->two_blocks(), colors_)
                      : palette_of(scene.view.theme)),
         sizes_(scene.view),
         context_{.scene = scene,
-                 .bodies = bodies_,
                  .log = log,
                  .palette = palette_,
                  .colors = colors_,
@@ -195,7 +193,6 @@ class Composer {
   }
 
   const Scene& scene_;
-  Bodies bodies_;
   bool is_article_;
   Fonts fonts_;
   std::vector<BlockColors> colors_;  ///< of the bodies

@@ -89,7 +89,6 @@ struct Layout {
 /// What overlays and panels are drawn from. It does not outlive their making.
 struct DrawingContext {
   const Scene& scene;
-  const Bodies& bodies;  ///< of the scene
   const Log& log;
   const Palette& palette;
   const std::vector<BlockColors>& colors;  ///< of each body
@@ -103,7 +102,7 @@ struct DrawingContext {
   const CollisionLog& two_blocks() const { return *pair(); }
   /// Nothing where the scene has other bodies.
   const CollisionLog* pair() const { return log.pair(); }
-  bool is_plane() const noexcept { return bodies.system.dimensions == 2; }
+  bool is_plane() const noexcept { return scene.system.dimensions == 2; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };
 

@@ -227,9 +227,10 @@ Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<Block
   return palette;
 }
 
-std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const TwoBlocks* blocks) {
+std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) {
+  const Theme theme = scene.view.theme;
   const Palette palette = palette_of(theme);
-  const std::vector<Body>& all = bodies.system.bodies;
+  const std::vector<Body>& all = scene.system.bodies;
   const bool is_dark = luminance(palette.background) < 0.2;
   const bool has_bars = palette.red.bars > 0;
   std::vector<BlockColors> turns = {palette.blue, palette.red};
@@ -241,7 +242,7 @@ std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const TwoB
   std::vector<BlockColors> colors;
   colors.reserve(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (const auto& color = bodies.styles[i].color) {
+    if (const auto& color = scene.styles[i].color) {
       const auto& [red, green, blue] = *color;
       colors.push_back(colors_from({red, green, blue}, theme, palette));
       if (has_bars) colors.back().bars = kBars.at(i % kBars.size());

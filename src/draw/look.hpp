@@ -54,7 +54,7 @@ Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<Block
 /// immovable have names: their colours if these are the theme's, and have names; else they are
 /// large and small, or left and right if their masses are equal.
 /// @param blocks  nullptr for other bodies
-std::vector<BlockColors> colors_of(const Bodies& bodies, Theme theme, const TwoBlocks* blocks);
+std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks);
 
 /// Nothing if the view is transparent.
 std::optional<Color> background_of(const View& view);

@@ -4,11 +4,6 @@
 
 namespace piblocks {
 
-Bodies bodies_of(const Scene& scene) {
-  if (scene.bodies) return *scene.bodies;
-  return {two_blocks_of(scene.system).system, {{}, {}}};
-}
-
 BodiesState bodies_state(BlockState state) {
   const auto motion = [](const Motion& block) {
     return BodyMotion{{block.position, 0}, {block.velocity, 0}};

@@ -9,9 +9,6 @@
 
 namespace piblocks {
 
-/// What the scene shows. Blue and red are bodies 0 and 1, beside wall 0.
-Bodies bodies_of(const Scene& scene);
-
 BodiesState bodies_state(BlockState state);
 /// The two blocks of a state, as seen from what is immovable beside them.
 BlockState blocks_state(const BodiesState& state, const TwoBlocks& blocks);

@@ -92,6 +92,10 @@ class TiedCollision : public UsageError {
 /// @throws TiedCollision unless the collision is the last one at its time.
 void require_last(const Integer& index, const Integer& last_at_its_time);
 
+/// As make_collision_log() of a system without problems.
+std::unique_ptr<CollisionLog> make_valid_collision_log(const TwoBlocks& blocks,
+                                                       Engine engine = Engine::unfolded);
+
 /// The event loop in exact rational arithmetic, for the few collisions of a light red block. Every
 /// answer is rounded once.
 /// @param system  with m_red <= m_blue, or at rest.

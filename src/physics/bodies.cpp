@@ -13,10 +13,13 @@
 namespace piblocks {
 namespace {
 
-/// The name of a body in messages; bodies are counted from 1 there.
-std::string name_of(std::size_t body) { return fmt::format("body {}", body + 1); }
-std::string key_of(std::size_t body, const char* value) {
-  return fmt::format("body {}.{}", body + 1, value);
+/// What messages call a body; without a name, bodies are counted from 1 there.
+std::string name_of(const BodySystem& system, std::size_t body) {
+  const std::string& name = system.bodies[body].name;
+  return name.empty() ? fmt::format("body {}", body + 1) : name;
+}
+std::string key_of(const BodySystem& system, std::size_t body, const char* value) {
+  return fmt::format("{}.{}", name_of(system, body), value);
 }
 
 Rational dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -24,34 +27,65 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
   return {a[0] - b[0], a[1] - b[1]};
 }
 
-/// Collects what is wrong with each body alone.
-void check_body(const BodySystem& system, std::size_t index, SceneProblems& problems) {
+/// Collects what is wrong with each body alone. In closed form masses may be of any size.
+void check_body(const BodySystem& system, std::size_t index, bool is_pair,
+                SceneProblems& problems) {
   const Body& body = system.bodies[index];
+  const auto key = [&](const char* value) { return key_of(system, index, value); };
   const char* const size = system.dimensions == 1 ? "width" : "radius";
   if (body.mass) {
-    problems.require_positive(key_of(index, "mass"), *body.mass);
-    problems.require_finite(key_of(index, "mass"), *body.mass);
+    problems.require_positive(key("mass"), *body.mass);
+    if (!is_pair) problems.require_finite(key("mass"), *body.mass);
   } else {
-    problems.require(body.velocity[0] == 0 && body.velocity[1] == 0, key_of(index, "velocity"),
+    problems.require(body.velocity[0] == 0 && body.velocity[1] == 0, key("velocity"),
                      "= [{}, {}]: a body of infinite mass must be at rest", body.velocity[0],
                      body.velocity[1]);
   }
-  problems.require_positive(key_of(index, size), body.size);
-  problems.require_finite(key_of(index, size), body.size);
+  problems.require_positive(key(size), body.size);
+  problems.require_finite(key(size), body.size);
   const auto larger = [](const ExactVector& vector) {
     return std::max(abs(vector[0]), abs(vector[1]));
   };
-  problems.require_finite(key_of(index, "position"), larger(body.position));
-  problems.require_finite(key_of(index, "velocity"), larger(body.velocity));
+  problems.require_finite(key("position"), larger(body.position));
+  problems.require_finite(key("velocity"), larger(body.velocity));
 }
 
-void check_wall(const Wall& wall, const Body& body, std::size_t index, SceneProblems& problems) {
+void check_wall(const BodySystem& system, const Wall& wall, std::size_t index,
+                SceneProblems& problems) {
+  const Body& body = system.bodies[index];
   const Rational reach = body.size;
   const Rational along = dot(difference(body.position, wall.point), wall.normal);
   const Rational square = dot(wall.normal, wall.normal);
   const bool is_inside = along >= 0 && along * along >= reach * reach * square;
-  problems.require(is_inside, key_of(index, "position"), "= [{}, {}]: is beyond the {} wall",
-                   body.position[0], body.position[1], wall.name);
+  problems.require(is_inside, key_of(system, index, "position"),
+                   "= [{}, {}]: is beyond the {} wall", body.position[0], body.position[1],
+                   wall.name);
+}
+
+/// What must be from left to right: wall, blue, red.
+void check_places(const BodySystem& system, SceneProblems& problems) {
+  const Rational& wall_face = system.walls[0].point[0];
+  const Rational& blue = system.bodies[0].position[0];
+  const Rational& red = system.bodies[1].position[0];
+  const Rational half_blue = system.bodies[0].size / 2;
+  const Rational reach = half_blue + system.bodies[1].size / 2;
+  const Rational least_blue = wall_face + half_blue;
+  if (blue + half_blue <= wall_face) {
+    problems.add("blue.position",
+                 "= {}: blue is left of the wall's face at {}; must be at least {}", blue,
+                 wall_face, least_blue);
+  } else if (blue < least_blue) {
+    problems.add("blue.position",
+                 "= {}: blue reaches {} into the wall, whose face is at {}; must be at least {}",
+                 blue, Rational(least_blue - blue), wall_face, least_blue);
+  }
+  const Rational least_red = blue + reach;
+  if (red <= blue - reach) {
+    problems.add("red.position", "= {}: red is left of blue; must be at least {}", red, least_red);
+  } else if (red < least_red) {
+    problems.add("red.position", "= {}: red overlaps blue by {}; must be at least {}", red,
+                 Rational(least_red - red), least_red);
+  }
 }
 
 /// Blocks that overlap their neighbour, or are beyond a wall.
@@ -63,15 +97,15 @@ void check_line(const BodySystem& system, SceneProblems& problems) {
     const Body& body = system.bodies[order[i]];
     for (const Wall& wall : system.walls) {
       const Rational inside = sgn(wall.normal[0]) * (body.position[0] - wall.point[0]);
-      problems.require(inside >= body.size / 2, key_of(order[i], "position"),
+      problems.require(inside >= body.size / 2, key_of(system, order[i], "position"),
                        "= {}: reaches {} beyond the {} wall", body.position[0],
                        Rational(body.size / 2 - inside), wall.name);
     }
     if (i == 0) continue;
     const Body& left = system.bodies[order[i - 1]];
     const Rational gap = body.position[0] - left.position[0] - (body.size + left.size) / 2;
-    problems.require(gap >= 0, key_of(order[i], "position"), "= {}: overlaps {} by {}",
-                     body.position[0], name_of(order[i - 1]), Rational(-gap));
+    problems.require(gap >= 0, key_of(system, order[i], "position"), "= {}: overlaps {} by {}",
+                     body.position[0], name_of(system, order[i - 1]), Rational(-gap));
   }
 }
 
@@ -162,10 +196,10 @@ void check_plane(const BodySystem& system, SceneProblems& problems) {
   const std::vector<Body>& bodies = system.bodies;
   const OverlapSweep sweep(bodies);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (const Wall& wall : system.walls) check_wall(wall, bodies[i], i, problems);
+    for (const Wall& wall : system.walls) check_wall(system, wall, i, problems);
     if (const auto& other = sweep.overlapped()[i]) {
-      problems.add(key_of(i, "position"), "= [{}, {}]: overlaps {}", bodies[i].position[0],
-                   bodies[i].position[1], name_of(*other));
+      problems.add(key_of(system, i, "position"), "= [{}, {}]: overlaps {}", bodies[i].position[0],
+                   bodies[i].position[1], name_of(system, *other));
     }
   }
 }
@@ -176,11 +210,14 @@ void check_dimensions(const BodySystem& system, SceneProblems& problems) {
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const Body& body = system.bodies[i];
     const bool is_flat = body.position[1] == 0 && body.velocity[1] == 0;
-    problems.require(system.dimensions == 2 || is_flat, key_of(i, "position"),
+    problems.require(system.dimensions == 2 || is_flat, key_of(system, i, "position"),
                      "has two coordinates: blocks are on a line");
   }
   for (std::size_t i = 0; i < system.walls.size(); ++i) {
-    const ExactVector& normal = system.walls[i].normal;
+    const auto& [name, point, normal] = system.walls[i];
+    const bool is_short = has_short_names(system);
+    problems.require_finite(is_short ? "wall.face" : fmt::format("wall {}.point", i + 1),
+                            std::max(abs(point[0]), abs(point[1])));
     const std::string key = fmt::format("wall {}.normal", i + 1);
     if (normal[0] == 0 && normal[1] == 0) {
       problems.add(key, "= [0, 0]: must not be 0");
@@ -189,9 +226,24 @@ void check_dimensions(const BodySystem& system, SceneProblems& problems) {
           key,
           "makes the {} wall, but blocks move along x alone; leave it out, or give the bodies "
           "a radius",
-          system.walls[i].name);
+          name);
     }
   }
+}
+
+void check_restitution(const BodySystem& system, bool is_pair, SceneProblems& problems) {
+  for (const auto& [key, value] : {std::pair("blocks.restitution", system.restitution),
+                                   std::pair("wall.restitution", system.wall_restitution)}) {
+    problems.require(value >= 0 && value <= 1, key,
+                     "= {}: must be from 0 (no rebound) to 1 (elastic)", value);
+  }
+  const bool is_both = system.restitution == system.wall_restitution;
+  const char* const key = is_both                  ? "restitution"
+                          : system.restitution < 1 ? "blocks.restitution"
+                                                   : "wall.restitution";
+  problems.require(is_pair || is_elastic(system), key,
+                   "is less than 1, which needs two blocks beside one wall or fixed block, and no "
+                   "more; leave it out");
 }
 
 }  // namespace
@@ -205,12 +257,16 @@ std::vector<Problem> problems_of(const BodySystem& system) {
                    "= {} of them: at most {} are possible", system.walls.size(), kMaxWalls);
   if (!problems.empty()) return problems.take();
   check_dimensions(system, problems);
-  for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, problems);
+  const bool is_pair = two_blocks_of(system).has_value();
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, is_pair, problems);
+  check_restitution(system, is_pair, problems);
   const bool can_move =
       std::ranges::any_of(system.bodies, [](const Body& body) { return body.mass.has_value(); });
   problems.require(can_move, "body", "all have infinite mass: nothing can move");
   if (!problems.empty()) return problems.take();  // what follows would only repeat them
-  if (system.dimensions == 1) {
+  if (has_short_names(system)) {
+    check_places(system, problems);
+  } else if (system.dimensions == 1) {
     check_line(system, problems);
   } else {
     check_plane(system, problems);

@@ -66,7 +66,7 @@ std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
                                        const std::optional<Rational>& horizon,
                                        const std::stop_token& stop) {
   if (const std::optional<TwoBlocks> blocks = two_blocks_of(system)) {
-    return make_collision_log(*blocks);
+    return make_valid_collision_log(*blocks);
   }
   if (horizon) require_not_negative(*horizon);
   return make_stored_body_log(system, horizon, stop);

@@ -29,7 +29,7 @@ Real greatest_loss(const Rational& ratio, const Integer& count, mpfr_prec_t bits
 }  // namespace
 
 LeastRestitution least_restitution(int digits, int base, int relative_bits) {
-  const BlockSystem system = article_system(digits, base);
+  const BlockSystem system = article_blocks(digits, base);
   if (relative_bits < 1 || relative_bits > kMaxRelativeBits) {
     throw UsageError(
         fmt::format("restitution: {} bits of its difference from 1; must be from 1 to {}",

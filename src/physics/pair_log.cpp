@@ -16,17 +16,18 @@ Block block_of(const LineElement& element, int side) {
 
 TwoBlocks two_blocks_from(const BodySystem& system, const LineElement& wall,
                           const LineElement& blue, const LineElement& red, int side) {
-  TwoBlocks found{{}, system, blue.id, red.id, wall.id, side};
-  found.blocks = {.wall_face = side * wall.position + wall.half_width,
-                  .blue = block_of(blue, side),
-                  .red = block_of(red, side)};
-  return found;
+  const BlockSystem blocks{.wall_face = side * wall.position + wall.half_width,
+                           .blue = block_of(blue, side),
+                           .red = block_of(red, side),
+                           .blocks_restitution = system.restitution,
+                           .wall_restitution = system.wall_restitution};
+  return {blocks, system, blue.id, red.id, wall.id, side};
 }
 
 }  // namespace
 
 std::optional<TwoBlocks> two_blocks_of(const BodySystem& system) {
-  if (system.dimensions != 1) return std::nullopt;
+  if (system.dimensions != 1 || system.bodies.size() > 3) return std::nullopt;
   const std::vector<LineElement> elements = elements_of(system);
   if (elements.size() != 3 || !elements[1].mass) return std::nullopt;
   const LineElement& left = elements[0];
@@ -37,15 +38,21 @@ std::optional<TwoBlocks> two_blocks_of(const BodySystem& system) {
   return std::nullopt;
 }
 
-TwoBlocks two_blocks_of(const BlockSystem& blocks) {
-  TwoBlocks result;
-  result.blocks = blocks;
-  for (const Block* const block : {&blocks.blue, &blocks.red}) {
-    result.system.bodies.push_back(
-        {block->mass, {block->position}, {block->velocity}, block->width});
-  }
-  result.system.walls = {{"wall", {blocks.wall_face}, {1}}};
-  return result;
+BodySystem system_of(const BlockSystem& blocks) {
+  const auto body_of = [](const Block& block, const char* name) {
+    return Body{block.mass, {block.position}, {block.velocity}, block.width, name};
+  };
+  return {1,
+          {body_of(blocks.blue, "blue"), body_of(blocks.red, "red")},
+          {{"wall", {blocks.wall_face}, {1}}},
+          blocks.blocks_restitution,
+          blocks.wall_restitution};
+}
+
+bool has_short_names(const BodySystem& system) {
+  const auto& [dimensions, bodies, walls, restitution, wall_restitution] = system;
+  return bodies.size() == 2 && walls.size() == 1 && bodies[0].name == "blue" &&
+         bodies[1].name == "red" && walls[0].name == "wall";
 }
 
 BodyCollision CollisionLog::collision(const Integer& index) const {

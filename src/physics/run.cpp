@@ -48,64 +48,13 @@ Rational mass_ratio_of(int digits, int base) {
   return power(base * base, static_cast<unsigned long>(digits - 1));
 }
 
-BlockSystem article_system(int digits, int base) {
+BlockSystem article_blocks(int digits, int base) {
   BlockSystem system;
   system.red.mass = mass_ratio_of(digits, base);
   return system;
 }
 
-namespace {
-
-/// From left to right: wall, blue, red.
-void check_places(const BlockSystem& system, SceneProblems& problems) {
-  const auto& [wall_face, blue, red, blocks_restitution, wall_restitution] = system;
-  const Rational least_blue = wall_face + blue.width / 2;
-  if (blue.position + blue.width / 2 <= wall_face) {
-    problems.add("blue.position",
-                 "= {}: blue is left of the wall's face at {}; must be at least {}", blue.position,
-                 wall_face, least_blue);
-  } else if (blue.position < least_blue) {
-    problems.add("blue.position",
-                 "= {}: blue reaches {} into the wall, whose face is at {}; must be at least {}",
-                 blue.position, Rational(-system.blue_gap()), wall_face, least_blue);
-  }
-  const Rational reach = (blue.width + red.width) / 2;
-  const Rational least_red = blue.position + reach;
-  if (red.position <= blue.position - reach) {
-    problems.add("red.position", "= {}: red is left of blue; must be at least {}", red.position,
-                 least_red);
-  } else if (red.position < least_red) {
-    problems.add("red.position", "= {}: red overlaps blue by {}; must be at least {}", red.position,
-                 Rational(-system.blocks_gap()), least_red);
-  }
-}
-
-}  // namespace
-
-std::vector<Problem> problems_of(const BlockSystem& system) {
-  const auto& [wall_face, blue, red, blocks_restitution, wall_restitution] = system;
-  SceneProblems problems;
-  problems.require_positive("blue.mass", blue.mass);
-  problems.require_positive("red.mass", red.mass);
-  problems.require_positive("blue.width", blue.width);
-  problems.require_positive("red.width", red.width);
-  problems.require_finite("wall.face", wall_face);
-  problems.require_finite("blue.position", blue.position);
-  problems.require_finite("red.position", red.position);
-  problems.require_finite("blue.velocity", blue.velocity);
-  problems.require_finite("red.velocity", red.velocity);
-  problems.require_finite("blue.width", blue.width);
-  problems.require_finite("red.width", red.width);
-  for (const auto& [key, value] : {std::pair("blocks.restitution", blocks_restitution),
-                                   std::pair("wall.restitution", wall_restitution)}) {
-    problems.require(value >= 0 && value <= 1, key,
-                     "= {}: must be from 0 (no rebound) to 1 (elastic)", value);
-  }
-  if (!problems.empty()) return problems.take();  // the gaps would only repeat them
-
-  check_places(system, problems);
-  return problems.take();
-}
+BodySystem article_system(int digits, int base) { return system_of(article_blocks(digits, base)); }
 
 void require_valid(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
@@ -135,9 +84,8 @@ void require_last(const Integer& index, const Integer& last_at_its_time) {
   if (index != last_at_its_time) throw TiedCollision(index, last_at_its_time);
 }
 
-std::unique_ptr<CollisionLog> make_collision_log(const TwoBlocks& blocks, Engine engine) {
+std::unique_ptr<CollisionLog> make_valid_collision_log(const TwoBlocks& blocks, Engine engine) {
   const BlockSystem& system = blocks.blocks;
-  require_valid(problems_of(system));
   if (engine == Engine::events) return make_stored_log(blocks);
   if (!is_elastic(system)) return std::make_unique<InelasticLog>(blocks);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
@@ -147,12 +95,24 @@ std::unique_ptr<CollisionLog> make_collision_log(const TwoBlocks& blocks, Engine
   return std::make_unique<UnfoldedLog>(blocks);
 }
 
+std::unique_ptr<CollisionLog> make_collision_log(const BodySystem& system, Engine engine) {
+  require_valid(problems_of(system));
+  const std::optional<TwoBlocks> blocks = two_blocks_of(system);
+  if (blocks) return make_valid_collision_log(*blocks, engine);
+  throw UsageError("log: needs two blocks beside one wall or fixed block, and no more");
+}
+
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
-  return make_collision_log(two_blocks_of(system), engine);
+  return make_collision_log(system_of(system), engine);
+}
+
+Integer count_collisions(const BodySystem& system, const std::optional<Rational>& horizon) {
+  const std::optional<TwoBlocks> blocks = two_blocks_of(system);
+  return blocks ? count_collisions(blocks->blocks) : make_log(system, horizon)->last();
 }
 
 Integer count_collisions(const BlockSystem& system) {
-  require_valid(problems_of(system));
+  require_valid(problems_of(system_of(system)));
   if (is_elastic(system)) return ExactMotion(system).total();
   const InelasticMotion motion(system);
   if (motion.total) return *motion.total;
@@ -160,7 +120,7 @@ Integer count_collisions(const BlockSystem& system) {
 }
 
 std::optional<Collapse> collapse_of(const BlockSystem& system) {
-  require_valid(problems_of(system));
+  require_valid(problems_of(system_of(system)));
   if (is_elastic(system)) return std::nullopt;
   const InelasticMotion motion(system);
   if (motion.total) return std::nullopt;
@@ -169,7 +129,7 @@ std::optional<Collapse> collapse_of(const BlockSystem& system) {
 }
 
 std::optional<Corner> corner_of(const BlockSystem& system) {
-  require_valid(problems_of(system));
+  require_valid(problems_of(system_of(system)));
   if (!is_elastic(system)) return InelasticMotion(system).corner();
   ExactMotion motion(system);
   // The line comes into the corner between the rays of wall and blocks; otherwise, starting in it,

@@ -166,7 +166,7 @@ std::vector<std::string> notes_of(const Plan& plan) {
   for (const PlacedSegment& placed : plan.film.segments()) {
     for (const FilmRun& run : placed.segment.runs()) {
       const Rational end = span_of(run.scene(), run.log()).to;
-      auto note = tie_note(run.scene(), run.log(), run.log().count_at(end));
+      auto note = tie_note(run.log(), run.log().count_at(end));
       if (note && std::ranges::find(notes, *note) == notes.end()) notes.push_back(*std::move(note));
     }
   }

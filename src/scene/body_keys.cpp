@@ -219,12 +219,15 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
   }
 }
 
-Bodies BodyDraft::bodies() const {
-  Bodies made{{bodies_.dimensions, bodies_.bodies, {}}, bodies_.styles};
-  add_walls(x_, 0, {"left", "right"}, made.system.walls);
-  add_walls(y_, 1, {"lower", "upper"}, made.system.walls);
-  made.system.walls.insert(made.system.walls.end(), slanted_.begin(), slanted_.end());
-  return made;
+void BodyDraft::put_into(Scene& scene) const {
+  std::vector<Wall> walls;
+  add_walls(x_, 0, {"left", "right"}, walls);
+  add_walls(y_, 1, {"lower", "upper"}, walls);
+  walls.insert(walls.end(), slanted_.begin(), slanted_.end());
+  scene.system.dimensions = bodies_.dimensions;
+  scene.system.bodies = bodies_.bodies;
+  scene.system.walls = std::move(walls);
+  scene.styles = bodies_.styles;
 }
 
 std::string BodyDraft::origin_of(const std::string& key) const {
@@ -271,11 +274,12 @@ void show_all(const BodySystem& system, View& view) {
   }
 }
 
-std::vector<std::pair<std::string, std::string>> describe(const Bodies& bodies) {
+std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& scene) {
+  const BodySystem& system = scene.system;
   std::vector<std::pair<std::string, std::string>> lines;
-  for (std::size_t i = 0; i < bodies.system.bodies.size(); ++i) {
-    const Body& body = bodies.system.bodies[i];
-    const BodyStyle& style = bodies.styles[i];
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const Body& body = system.bodies[i];
+    const BodyStyle& style = scene.styles[i];
     std::string color;
     if (style.color) {
       const auto& [r, g, b] = *style.color;
@@ -284,11 +288,11 @@ std::vector<std::pair<std::string, std::string>> describe(const Bodies& bodies) 
     lines.emplace_back(
         fmt::format("body {}", i + 1),
         fmt::format("{} {} at {} with {}, size {}, color '{}', label '{}'",
-                    bodies.system.dimensions == 1 ? "block" : "disc",
+                    system.dimensions == 1 ? "block" : "disc",
                     body.mass ? body.mass->get_str() : "inf", text_of(body.position),
                     text_of(body.velocity), body.size.get_str(), color, style.label));
   }
-  for (const Wall& wall : bodies.system.walls) {
+  for (const Wall& wall : system.walls) {
     lines.emplace_back(fmt::format("{} wall", wall.name),
                        fmt::format("{} facing {}", text_of(wall.point), text_of(wall.normal)));
   }

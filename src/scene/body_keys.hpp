@@ -36,7 +36,8 @@ class BodyDraft {
   void set_box_y(BoxSide side) { y_ = std::move(side); }
 
   bool empty() const noexcept { return bodies_.bodies.empty(); }
-  Bodies bodies() const;
+  /// Replaces the bodies of a scene, and walls.
+  void put_into(Scene& scene) const;
   bool has_slanted_walls() const noexcept { return !slanted_.empty(); }
   /// File and line of the table for this key of problems_of(), as "body 3.mass"; empty if there is
   /// none.
@@ -67,6 +68,6 @@ std::size_t number_in(std::string_view text, std::string_view beginning);
 void show_all(const BodySystem& system, View& view);
 
 /// The bodies and walls as exact text, in the order of describe().
-std::vector<std::pair<std::string, std::string>> describe(const Bodies& bodies);
+std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& scene);
 
 }  // namespace piblocks

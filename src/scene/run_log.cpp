@@ -11,10 +11,9 @@
 namespace piblocks {
 
 std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop) {
-  if (!scene.bodies) return make_collision_log(scene.system);
   const bool is_time = scene.time.to.is_time();
   return make_log(
-      scene.bodies->system,
+      scene.system,
       is_time ? std::optional(std::max(scene.time.to.offset, Rational(0))) : std::nullopt, stop);
 }
 
@@ -28,8 +27,8 @@ void require_certain(const Scene& scene, const Log& log, const std::optional<Rat
       *until, *until * 0.999));
 }
 
-std::optional<std::string> tie_note(const Scene& scene, const Log& log, const Integer& last) {
-  const std::optional<Integer> tie = scene.bodies ? log.first_tie(last) : std::nullopt;
+std::optional<std::string> tie_note(const Log& log, const Integer& last) {
+  const std::optional<Integer> tie = log.pair() ? std::nullopt : log.first_tie(last);
   if (!tie) return std::nullopt;
   return fmt::format(
       "at t = {} a body has several collisions at once: those of movable bodies come first, in the "
@@ -48,7 +47,7 @@ std::string listed_collisions(const Log& log, const char* mark) {
 }
 
 void require_blocks(const Scene& scene, const char* what) {
-  if (!scene.bodies) return;
+  if (has_short_names(scene)) return;
   throw UsageError(fmt::format(
       "{}: needs two blocks and a fixed wall; leave it out, or leave out [[body]] and wall.mass",
       what));

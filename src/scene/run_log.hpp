@@ -21,8 +21,8 @@ std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop = {}
 void require_certain(const Scene& scene, const Log& log, const std::optional<Rational>& time);
 
 /// What to tell the user if the order of ties decides what happens up to this collision; nothing of
-/// a scene with two blocks and a wall, which has a convention.
-std::optional<std::string> tie_note(const Scene& scene, const Log& log, const Integer& last);
+/// two blocks beside something immovable, which have a convention.
+std::optional<std::string> tie_note(const Log& log, const Integer& last);
 
 /// Which collisions the log lists: "no collisions", "collisions #1 to #31".
 /// @param mark  before each number

@@ -144,14 +144,14 @@ void check_show(const Show& show, SceneProblems& problems) {
 }
 
 /// What is there for discs, for blocks, or for two blocks beside something immovable alone.
-void check_fits(const Scene& scene, const BodySystem& system, SceneProblems& problems) {
+void check_fits(const Scene& scene, SceneProblems& problems) {
   const Show& show = scene.show;
-  const bool is_plane = system.dimensions == 2;
+  const bool is_plane = scene.system.dimensions == 2;
   problems.require(is_plane || !show.has(Overlay::trails), "show.overlays",
                    "'trails' is for discs; blocks have the diagram 'time'");
   problems.require(!is_plane || !show.has(Overlay::ruler), "show.overlays",
                    "'ruler' is for blocks on a line");
-  const bool is_pair = !scene.bodies || two_blocks_of(system);
+  const bool is_pair = two_blocks_of(scene.system).has_value();
   const auto require_pair = [&](bool is_there, const char* key, const std::string& what) {
     problems.require(is_pair || !is_there, key,
                      "has {}, which needs two blocks beside one wall or fixed block, and no more; "
@@ -215,32 +215,27 @@ void check_line(const char* key, std::string_view text, SceneProblems& problems)
   problems.require(!has_control_characters(text), key, "must be one line of text");
 }
 
-Rational width_by_mass(const BlockSystem& system) {
-  if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
+Rational width_by_mass(const Body& blue, const Body& red) {
+  if (*blue.mass <= 0 || *red.mass <= 0) return red.size;
   // Either mass may be beyond the range of a double.
   const auto log_100 = [](const Integer& value) {
     long exponent = 0;
     const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
     return (rounded::log10(mantissa) + static_cast<double>(exponent) * rounded::log10(2)) / 2;
   };
-  const Rational ratio = system.red.mass / system.blue.mass;
+  const Rational ratio = *red.mass / *blue.mass;
   const double hundreds = log_100(ratio.get_num()) - log_100(ratio.get_den());
   const double factor = std::clamp(1 + hundreds / 8, 0.5, 1.5);
   // To a thousandth, which makes the eighths exact.
-  return system.blue.width * Rational(Integer(std::lround(factor * 1000))) / 1000;
+  return blue.size * Rational(Integer(std::lround(factor * 1000))) / 1000;
 }
 
 std::vector<Problem> problems_of(const Scene& scene) {
-  const BodySystem system =
-      scene.bodies ? scene.bodies->system : two_blocks_of(scene.system).system;
-  SceneProblems problems(scene.bodies ? problems_of(system) : problems_of(scene.system));
-  if (scene.bodies) {
-    problems.require(scene.bodies->styles.size() == system.bodies.size(), "body",
-                     "must have one style for each body");
-  } else {
-    check_elastic(scene, problems);
-  }
-  check_fits(scene, system, problems);
+  SceneProblems problems(problems_of(scene.system));
+  problems.require(scene.styles.size() == scene.system.bodies.size(), "body",
+                   "must have one style for each body");
+  check_elastic(scene, problems);
+  check_fits(scene, problems);
   check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);

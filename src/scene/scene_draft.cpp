@@ -46,12 +46,11 @@ const Rational kLectureShutter(1, 2);
 std::string key_of(const Scene& scene, const std::string& key) {
   const std::size_t wall = number_in(key, "wall ");
   if (wall == 0) return key;
-  const std::vector<Wall>& walls = scene.bodies->system.walls;
+  const std::vector<Wall>& walls = scene.system.walls;
   const std::string& name = walls.at(wall - 1).name;
   if (name == "left" || name == "right") return "box.x";
   if (name == "lower" || name == "upper") return "box.y";
-  const std::size_t slanted = number_in(name, "slanted-");
-  return fmt::format("wall {}.normal", slanted);
+  return fmt::format("wall {}{}", number_in(name, "slanted-"), key.substr(key.find('.')));
 }
 
 }  // namespace
@@ -135,7 +134,7 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
   }
   if (key == "restitution") {
     origins_[key] = origin;
-    scene_.system.blocks_restitution = scene_.system.wall_restitution = parse_restitution(values);
+    scene_.system.restitution = scene_.system.wall_restitution = parse_restitution(values);
     return;
   }
   const std::span<const SceneKey> keys = scene_keys();
@@ -171,22 +170,20 @@ Scene SceneDraft::scene() const {
   Scene scene = scene_;
   set_shutter(scene.view);
   if (!bodies_.empty()) {
-    scene.bodies = bodies_.bodies();
+    bodies_.put_into(scene);
     View seen = scene.view;
-    show_all(scene.bodies->system, seen);
+    show_all(scene.system, seen);
     if (!origins_.contains("view.x")) scene.view.x = seen.x;
     if (!origins_.contains("view.y")) scene.view.y = seen.y;
     return scene;
   }
   const std::optional<Rational> ratio =
       digits_ ? std::optional(mass_ratio_of(*digits_, scene.show.base)) : mass_ratio_;
-  if (ratio) scene.system.red.mass = scene.system.blue.mass * *ratio;
-  if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
-  if (wall_mass_) {
-    set_recoiling_wall(scene);
-    // So that two scenes of the same bodies have one description. What is wrong is told first.
-    if (is_elastic(scene.system) && problems_of(scene.system).empty()) scene.system = {};
-  }
+  const Body& blue = scene.system.bodies[0];
+  Body& red = scene.system.bodies[1];
+  if (ratio) red.mass = *blue.mass * *ratio;
+  if (width_by_mass_) red.size = width_by_mass(blue, red);
+  if (wall_mass_) set_recoiling_wall(scene);
   return scene;
 }
 
@@ -198,50 +195,36 @@ void SceneDraft::set_shutter(View& view) const {
   }
 }
 
-/// A wall of finite mass is a block: the three collide as bodies.
+/// A wall of finite mass is a block.
 void SceneDraft::set_recoiling_wall(Scene& scene) const {
   constexpr int kColor = 140;  // between light and dark
-  const auto body = [](const Block& block) {
-    return Body{block.mass, {block.position}, {block.velocity}, block.width};
-  };
-  const auto& system = scene.system;
-  const Block wall{*wall_mass_, system.wall_face - Rational(1, 2), 0, 1};
-  scene.bodies = Bodies{{1, {body(system.blue), body(system.red), body(wall)}, {}},
-                        {{}, {}, {{{kColor, kColor, kColor}}, "wall"}}};
+  BodySystem& system = scene.system;
+  const Rational face = system.walls[0].point[0];
+  system.walls.clear();
+  system.bodies.push_back(
+      {.mass = *wall_mass_, .position = {face - Rational(1, 2)}, .name = "wall"});
+  scene.styles.push_back({{{kColor, kColor, kColor}}, "wall"});
 }
 
 std::string SceneDraft::origin_of(const std::string& key) const {
-  const auto origin = origins_.find(key);
-  if (origin != origins_.end()) return origin->second;
+  for (const std::string& set :
+       {key, std::string(key.ends_with("restitution") ? "restitution" : "")}) {
+    const auto origin = origins_.find(set);
+    if (origin != origins_.end()) return origin->second;
+  }
   const std::string of_table = bodies_.origin_of(key);
   return of_table.empty() ? default_origin_ : of_table;
 }
 
 /// Whether other problems, which are reported, are the cause of this one.
 bool SceneDraft::is_repeated(const std::string& key) const {
-  if (has_recoiling_wall()) return key.starts_with("body ");
   return !bodies_.empty() && key.starts_with("view.") && !origins_.contains(key);
 }
 
 /// Keys of blue, red and the wall, where there are bodies instead; and a box without bodies.
-void SceneDraft::check_bodies(const Scene& scene, ProblemLines& problems) const {
-  if (has_recoiling_wall()) {
-    // In the words of the file, which has no bodies.
-    for (const auto& [key, reason] : problems_of(scene.system)) {
-      problems.add(origin_of(key), fmt::format("{} {}", key, reason));
-    }
-  }
-  if (wall_mass_ && !is_elastic(scene.system)) {
-    problems.add(
-        origin_of("wall.mass"),
-        "wall.mass: a wall that recoils is elastic; leave out the restitution, or the mass");
-  }
+void SceneDraft::check_bodies(ProblemLines& problems) const {
   for (const auto& [key, origin] : origins_) {
-    const bool is_of_blocks = key.starts_with("blue.") || key.starts_with("blocks.") ||
-                              key.starts_with("red.") || key.starts_with("wall.");
-    if (!bodies_.empty() && key.ends_with("restitution")) {
-      problems.add(origin, key + ": bodies collide elastically; leave it out");
-    } else if (!bodies_.empty() && is_of_blocks) {
+    if (!bodies_.empty() && is_short_key(key)) {
       const bool is_ratio = key == "red.mass" && (digits_ || mass_ratio_);
       problems.add(origin,
                    fmt::format("{}: this scene has [[body]] instead of blue, red and the wall",
@@ -258,7 +241,7 @@ void SceneDraft::check_bodies(const Scene& scene, ProblemLines& problems) const 
 Scene SceneDraft::make(ProblemLines& problems, bool of_film) const {
   Scene made = scene();
   ProblemLines found = problems_;
-  check_bodies(made, found);
+  check_bodies(found);
   for (const auto& [key, reason] : problems_of(made)) {
     if (of_film && !is_film_key(key)) continue;
     if (!found.empty() && is_repeated(key)) continue;

@@ -39,10 +39,9 @@ class SceneDraft {
   void set_recoiling_wall(Scene& scene) const;
   void set_shutter(View& view) const;
   bool set_box(const std::string& key, const Values& values);
-  void check_bodies(const Scene& scene, ProblemLines& problems) const;
+  void check_bodies(ProblemLines& problems) const;
   std::string origin_of(const std::string& key) const;
   bool is_repeated(const std::string& key) const;
-  bool has_recoiling_wall() const { return wall_mass_ && bodies_.empty(); }
   void set_key(const std::string& origin, const std::string& key, const Values& values);
   /// What red's mass follows from: one of the two, or neither.
   void set_mass_ratio(const std::string& origin, std::optional<int> digits,

@@ -130,13 +130,25 @@ constexpr SceneKey key(const char* name) {
 }
 
 /// A mass, which may be a longer number than others.
-template <auto Member>
-constexpr SceneKey mass_key(const char* name) {
-  return {name,
-          [](Scene& scene, const Values& values) {
-            (scene.system.*Member).mass = parse_rational(single(values), kMaxMassBits);
-          },
-          [](const Scene& scene) { return texts_of((scene.system.*Member).mass); }};
+void read(std::optional<Rational>& target, const Values& values) {
+  target = parse_rational(single(values), kMaxMassBits);
+}
+/// A vector of a line.
+void read(ExactVector& target, const Values& values) { read(target[0], values); }
+Values texts_of(const ExactVector& value) { return texts_of(value[0]); }
+
+/// A key of what is there with short names alone: a part of the system.
+template <auto PartOf>
+constexpr SceneKey short_key(const char* name) {
+  return {name, [](Scene& scene, const Values& values) { read(PartOf(scene.system), values); },
+          [](const Scene& scene) {
+            return has_short_names(scene) ? texts_of(PartOf(scene.system)) : Values();
+          }};
+}
+template <std::size_t Index, auto Member>
+constexpr SceneKey body_key(const char* name) {
+  return short_key < [](auto& system) -> auto& { return system.bodies[Index].*Member; }
+  > (name);
 }
 
 void set_size(Scene& scene, const Values& values) {
@@ -180,27 +192,21 @@ Values base_of(const Scene& scene) { return {fmt::format("{}", scene.show.base)}
 
 constexpr auto kKeys = std::to_array<SceneKey>({
     SceneKey{"base", set_base, base_of},
-    key<&Scene::system, &BlockSystem::wall_face>("wall.face"),
-    mass_key<&BlockSystem::blue>("blue.mass"),
-    key<&Scene::system, &BlockSystem::blue, &Block::position>("blue.position"),
-    key<&Scene::system, &BlockSystem::blue, &Block::velocity>("blue.velocity"),
-    key<&Scene::system, &BlockSystem::blue, &Block::width>("blue.width"),
-    mass_key<&BlockSystem::red>("red.mass"),
-    key<&Scene::system, &BlockSystem::red, &Block::position>("red.position"),
-    key<&Scene::system, &BlockSystem::red, &Block::velocity>("red.velocity"),
-    key<&Scene::system, &BlockSystem::red, &Block::width>("red.width"),
-    key<&Scene::system, &BlockSystem::blocks_restitution>("blocks.restitution"),
-    key<&Scene::system, &BlockSystem::wall_restitution>("wall.restitution"),
-    key<&Scene::view, &View::x>("view.x"),
-    key<&Scene::view, &View::y>("view.y"),
-    SceneKey{"view.size", set_size, size_of},
-    key<&Scene::view, &View::frame_rate>("view.fps"),
+    short_key<[](auto& system) -> auto& { return system.walls[0].point;
+}  // namespace
+> ("wall.face"), body_key<0, &Body::mass>("blue.mass"),
+    body_key<0, &Body::position>("blue.position"), body_key<0, &Body::velocity>("blue.velocity"),
+    body_key<0, &Body::size>("blue.width"), body_key<1, &Body::mass>("red.mass"),
+    body_key<1, &Body::position>("red.position"), body_key<1, &Body::velocity>("red.velocity"),
+    body_key<1, &Body::size>("red.width"),
+    key<&Scene::system, &BodySystem::restitution>("blocks.restitution"),
+    key<&Scene::system, &BodySystem::wall_restitution>("wall.restitution"),
+    key<&Scene::view, &View::x>("view.x"), key<&Scene::view, &View::y>("view.y"),
+    SceneKey{"view.size", set_size, size_of}, key<&Scene::view, &View::frame_rate>("view.fps"),
     key<&Scene::view, &View::shutter>("view.shutter"),
     key<&Scene::view, &View::background>("view.background"),
-    key<&Scene::view, &View::theme>("view.theme"),
-    key<&Scene::time, &TimeSpan::from>("time.from"),
-    key<&Scene::time, &TimeSpan::to>("time.to"),
-    SceneKey{"time.speed", set_speed, speed_of},
+    key<&Scene::view, &View::theme>("view.theme"), key<&Scene::time, &TimeSpan::from>("time.from"),
+    key<&Scene::time, &TimeSpan::to>("time.to"), SceneKey{"time.speed", set_speed, speed_of},
     SceneKey{"time.duration", set_duration, duration_of},
     key<&Scene::time, &TimeSpan::allow_uncertain>("time.allow-uncertain"),
     SceneKey{"time.slow-motion", set_slow_motion, slow_motion_of},
@@ -208,22 +214,24 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     key<&Scene::pacing, &Pacing::freezes>("time.freeze"),
     key<&Scene::pacing, &Pacing::hold_start_s>("time.hold-start"),
     key<&Scene::pacing, &Pacing::hold_end_s>("time.hold-end"),
-    key<&Scene::pacing, &Pacing::loop>("time.loop"),
-    key<&Scene::sound, &Sound::on>("sound.on"),
+    key<&Scene::pacing, &Pacing::loop>("time.loop"), key<&Scene::sound, &Sound::on>("sound.on"),
     key<&Scene::show, &Show::overlays>("show.overlays"),
-    key<&Scene::show, &Show::panels>("show.panels"),
-    key<&Scene::show, &Show::title>("show.title"),
-    key<&Scene::show, &Show::caption>("show.caption"),
-    key<&Scene::show, &Show::logo>("show.logo"),
-    key<&Scene::show, &Show::hits>("show.hits"),
-    key<&Scene::show, &Show::loupe>("show.loupe"),
+    key<&Scene::show, &Show::panels>("show.panels"), key<&Scene::show, &Show::title>("show.title"),
+    key<&Scene::show, &Show::caption>("show.caption"), key<&Scene::show, &Show::logo>("show.logo"),
+    key<&Scene::show, &Show::hits>("show.hits"), key<&Scene::show, &Show::loupe>("show.loupe"),
     key<&Scene::golden, &Golden::frames>("golden.frames"),
     key<&Scene::golden, &Golden::size>("golden.size"),
-});
+}  // namespace piblocks
+);
 
 }  // namespace
 
 std::span<const SceneKey> scene_keys() { return kKeys; }
+
+bool is_short_key(std::string_view key) {
+  return (key.starts_with("blue.") || key.starts_with("red.") || key.starts_with("wall.")) &&
+         !key.ends_with(".restitution");
+}
 
 bool is_film_key(std::string_view key) {
   constexpr std::array<std::string_view, 5> kOfFilm = {"view.size", "view.fps", "view.background",
@@ -247,7 +255,8 @@ std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
   for (const SceneKey& key : scene_keys()) {
     values.emplace_back(key.name, fmt::format("{}", fmt::join(key.get(scene), ", ")));
   }
-  if (scene.bodies) std::ranges::move(describe(*scene.bodies), std::back_inserter(values));
+  if (!has_short_names(scene))
+    std::ranges::move(describe_bodies(scene), std::back_inserter(values));
   return values;
 }
 

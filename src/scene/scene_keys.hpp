@@ -25,6 +25,9 @@ struct SceneKey {
 
 std::span<const SceneKey> scene_keys();
 
+/// Whether the key is of blue, red or their wall.
+bool is_short_key(std::string_view key);
+
 /// Whether the key is for a whole film and not for a segment of a storyboard.
 bool is_film_key(std::string_view key);
 

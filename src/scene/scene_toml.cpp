@@ -64,10 +64,10 @@ std::string vector_of(const ExactVector& vector, int dimensions) {
   return value_of({vector[0].get_str(), vector[1].get_str()});
 }
 
-std::string body_text(const Bodies& bodies, std::size_t number) {
-  const int dimensions = bodies.system.dimensions;
-  const Body& body = bodies.system.bodies[number];
-  const BodyStyle& style = bodies.styles[number];
+std::string body_text(const Scene& scene, std::size_t number) {
+  const int dimensions = scene.system.dimensions;
+  const Body& body = scene.system.bodies[number];
+  const BodyStyle& style = scene.styles[number];
   std::string text =
       fmt::format("{{ mass = {}, position = {}, velocity = {}, {} = {}",
                   scalar(body.mass ? body.mass->get_str() : "inf"),
@@ -82,10 +82,10 @@ std::string body_text(const Bodies& bodies, std::size_t number) {
 }
 
 /// The bodies, the sides of their box, and the walls that are not of it.
-void add_bodies(const Bodies& bodies, std::vector<std::string>& entries) {
+void add_bodies(const Scene& scene, std::vector<std::string>& entries) {
   std::array<Values, 2> box = {Values{"-inf", "inf"}, Values{"-inf", "inf"}};
   std::vector<std::string> slanted;
-  for (const Wall& wall : bodies.system.walls) {
+  for (const Wall& wall : scene.system.walls) {
     const bool is_of_x = wall.name == "left" || wall.name == "right";
     if (is_of_x || wall.name == "lower" || wall.name == "upper") {
       const std::size_t axis = is_of_x ? 0 : 1;
@@ -102,34 +102,30 @@ void add_bodies(const Bodies& bodies, std::vector<std::string>& entries) {
   }
   if (!slanted.empty()) entries.push_back(fmt::format("wall = [{}]", fmt::join(slanted, ", ")));
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < bodies.system.bodies.size(); ++i) {
-    texts.push_back(body_text(bodies, i));
+  for (std::size_t i = 0; i < scene.system.bodies.size(); ++i) {
+    texts.push_back(body_text(scene, i));
   }
   entries.push_back(fmt::format("body = [{}]", fmt::join(texts, ", ")));
-}
-
-bool is_of_blocks(std::string_view key) {
-  return key.starts_with("blue.") || key.starts_with("red.") || key.starts_with("blocks.") ||
-         key.starts_with("wall.");
 }
 
 /// A list of scene keys that differ from the default, one "key = value" each.
 std::vector<std::string> entries_of(const Scene& scene, const KeyFilter& is_wanted) {
   Scene usual;
-  if (scene.bodies) show_all(scene.bodies->system, usual.view);
+  const bool has_bodies = !has_short_names(scene);
+  if (has_bodies) show_all(scene.system, usual.view);
   // The lecture themes have another default.
   const bool has_other_shutter = is_lecture(scene.view.theme);
   std::vector<std::string> entries;
   for (const SceneKey& key : scene_keys()) {
     const std::string_view name = key.name;
     if (!is_wanted(name)) continue;
-    if (scene.bodies && is_of_blocks(name)) continue;
+    if (has_bodies && is_short_key(name)) continue;
     const bool is_usual = key.get(scene) == key.get(usual);
     if (is_usual && !(has_other_shutter && name == "view.shutter")) continue;
     if (name == "time.speed" && scene.pacing.duration_s) continue;
     entries.push_back(fmt::format("{} = {}", name, value_of(values_of(key, scene))));
   }
-  if (scene.bodies && is_wanted("body")) add_bodies(*scene.bodies, entries);
+  if (has_bodies && is_wanted("body")) add_bodies(scene, entries);
   return entries;
 }
 

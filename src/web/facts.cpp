@@ -53,10 +53,10 @@ std::optional<int> digits_of(const Rational& ratio, int base) {
   return power == ratio.get_num() ? std::optional(digits) : std::nullopt;
 }
 
-std::string row_json(const Bodies& bodies, std::size_t i) {
-  const Body& body = bodies.system.bodies[i];
-  const BodyStyle& style = bodies.styles[i];
-  const int dimensions = bodies.system.dimensions;
+std::string row_json(const Scene& scene, std::size_t i) {
+  const Body& body = scene.system.bodies[i];
+  const BodyStyle& style = scene.styles[i];
+  const int dimensions = scene.system.dimensions;
   std::string color;
   if (style.color) {
     const auto& [red, green, blue] = *style.color;
@@ -80,11 +80,11 @@ std::string box_json(const BodySystem& system, std::string_view low, std::string
   return json_texts(ends);
 }
 
-std::string bodies_json(const Bodies& bodies) {
-  const BodySystem& system = bodies.system;
+std::string bodies_json(const Scene& scene) {
+  const BodySystem& system = scene.system;
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < system.bodies.size() && system.bodies.size() <= kMaxBodyRows; ++i) {
-    rows.push_back(row_json(bodies, i));
+    rows.push_back(row_json(scene, i));
   }
   return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{}}})",
                      system.bodies.size(), system.dimensions, box_json(system, "left", "right", 0),
@@ -108,16 +108,19 @@ std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
   std::vector<std::string> notes = cli::convention_notes(scene);
   const Log& log = run.log();
   const Integer last = has_span(scene, log) ? log.count_at(span_of(scene, log).to) : Integer(0);
-  if (auto note = tie_note(scene, log, last)) notes.push_back(*std::move(note));
+  if (auto note = tie_note(log, last)) notes.push_back(*std::move(note));
   return notes;
 }
 
 std::string scene_json(const Scene& scene, const FilmRun& run) {
-  const Rational ratio = scene.system.red.mass / scene.system.blue.mass;
+  const CollisionLog* const pair = run.log().pair();
+  const Rational ratio =
+      pair == nullptr ? Rational(1) : pair->blocks().red.mass / pair->blocks().blue.mass;
   const std::optional<int> digits = digits_of(ratio, scene.show.base);
   return fmt::format(R"("hasTurn":{},"digits":{},"massRatio":{},"bodies":{},"notes":{})",
                      turn_of(run.log()).has_value(), digits ? fmt::format("{}", *digits) : "null",
-                     json_text(ratio.get_str()), scene.bodies ? bodies_json(*scene.bodies) : "null",
+                     json_text(ratio.get_str()),
+                     has_short_names(scene) ? "null" : bodies_json(scene),
                      json_texts(notes_of(scene, run)));
 }
 

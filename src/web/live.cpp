@@ -165,7 +165,8 @@ std::optional<std::string> LiveScript::state(const Place& place) const {
   if (run() == nullptr) return std::nullopt;
   const Rational time = time_of(place.instant, run()->log());
   const Log& log = run()->log();
-  if (run()->scene().bodies) return cli::state_text(log.system(), time, log.state_at(time));
+  if (!has_short_names(run()->scene()))
+    return cli::state_text(log.system(), time, log.state_at(time));
   return cli::state_text(time, log.pair()->blocks_at(time), cli::infinite_count(log));
 }
 

@@ -27,7 +27,7 @@ class RestitutionTest : public CliFixture {
 };
 
 BlockSystem lossy(int digits, const Rational& blocks, const Rational& wall) {
-  BlockSystem system = article_system(digits);
+  BlockSystem system = article_blocks(digits);
   system.blocks_restitution = blocks;
   system.wall_restitution = wall;
   return system;

@@ -155,8 +155,8 @@ TEST_P(ShippedBodies, AreLegibleOrRefusedAtEverySize) {
 /// Everything that there is for this kind of scene.
 TEST_P(ShippedBodies, ShowAllThereIs) {
   const Scene plain = shipped(GetParam(), {});
-  const bool is_plane = plain.bodies->system.dimensions == 2;
-  const bool are_two = plain.bodies->system.bodies.size() == 2;
+  const bool is_plane = plain.system.dimensions == 2;
+  const bool are_two = plain.system.bodies.size() == 2;
   const std::string panels = !is_plane ? "time,count,speeds"
                              : are_two ? "separation,count,speeds"
                                        : "count,speeds";
@@ -371,9 +371,8 @@ TEST(BodyPictures, BlocksPassBehindTheCounterOfARow) {
 TEST(BodyPictures, HitsAreMarkedWhereBodiesTouch) {
   for (const std::string name : {"three-blocks", "row", "superball", "touch", "billiard"}) {
     Scene scene = shipped(name, {{"view.shutter", "0"}, {"view.fps", "60"}});
-    const auto log =
-        make_log(scene.bodies->system,
-                 scene.time.to.is_time() ? std::optional(scene.time.to.offset) : std::nullopt);
+    const auto log = make_log(
+        scene.system, scene.time.to.is_time() ? std::optional(scene.time.to.offset) : std::nullopt);
     const Film film(scene);
     int marks = 0;
     for (Integer k = 1; k <= std::min<Integer>(log->last(), 8); ++k) {
@@ -398,7 +397,7 @@ TEST(BodyPictures, SumsThatNothingTakesNeverChange) {
   for (const std::string name : kShipped) {
     const Scene scene = shipped(
         name, {{"view.fps", "4"}, {"show.overlays", "energy,momentum"}, {"view.size", "640x360"}});
-    const bool is_free = scene.bodies->system.walls.empty() && name != "billiard";
+    const bool is_free = scene.system.walls.empty() && name != "billiard";
     const Film film(scene);
     std::set<std::string> energies;
     std::set<std::string> momenta;

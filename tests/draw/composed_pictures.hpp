@@ -48,16 +48,13 @@ struct Pictures {
 struct Drawing {
   explicit Drawing(const Scene& scene)
       : log(make_collision_log(scene.system)),
-        bodies(bodies_of(scene)),
-        colors(colors_of(bodies, scene.view.theme, &log->two_blocks())),
+        colors(colors_of(scene, &log->two_blocks())),
         palette(palette_of(scene.view.theme, log->two_blocks(), colors)),
         sizes(scene.view),
-        context{
-            scene,  bodies, *log, palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)),
-            layout, sizes,  needs} {}
+        context{scene,  *log,  palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)),
+                layout, sizes, needs} {}
 
   std::unique_ptr<CollisionLog> log;
-  Bodies bodies;
   std::vector<BlockColors> colors;
   Palette palette;
   Fonts fonts;

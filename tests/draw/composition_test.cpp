@@ -236,10 +236,10 @@ TEST(Composition, SaysWhyItCannotBeShown) {
 TEST(Composition, RefusesAViewThatIsCloserThanPositionsAreKnown) {
   const auto problem_at = [](const Rational& far, const Rational& unit) {
     Scene scene = scene_with(3, {});
-    scene.system.wall_face = far;
-    scene.system.blue.position = far + 2 * unit;
-    scene.system.red.position = far + 5 * unit;
-    scene.system.blue.width = scene.system.red.width = unit;
+    scene.system.walls[0].point[0] = far;
+    scene.system.bodies[0].position[0] = far + 2 * unit;
+    scene.system.bodies[1].position[0] = far + 5 * unit;
+    scene.system.bodies[0].size = scene.system.bodies[1].size = unit;
     scene.view.x = {far - unit, far + 12 * unit};
     scene.view.y = {-unit, unit};
     try {

@@ -123,10 +123,10 @@ TEST(HitMarks, GlowWhereverTheyAreTooMany) {
   for (int i = 0; i < 40; ++i) {
     system.bodies.push_back({.position = {1 + i, 0}, .velocity = {-i, 0}, .size = Rational(1, 2)});
   }
-  scene.bodies = Bodies{system, std::vector<BodyStyle>(40)};
+  scene.system = system;
+  scene.styles.resize(40);
   for (std::uint8_t i = 0; i < 40; ++i)
-    scene.bodies->styles[i].color =
-        std::array<std::uint8_t, 3>{200, static_cast<std::uint8_t>(6 * i), 50};
+    scene.styles[i].color = std::array<std::uint8_t, 3>{200, static_cast<std::uint8_t>(6 * i), 50};
   scene.view.x = {0, 42};
   scene.time.to = Rational(1);
   const auto log = make_log(system);

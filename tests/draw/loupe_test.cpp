@@ -29,7 +29,7 @@ Settings operator+(Settings settings, const Settings& more) {
 
 double pixels_per_unit(const DrawList& frame, const Scene& scene) {
   const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front();
-  return blue.bounds.width / to_double(scene.system.blue.width);
+  return blue.bounds.width / to_double(scene.system.bodies[0].size);
 }
 
 struct ExactGaps {
@@ -49,7 +49,7 @@ void expect_exact(const Frames& frames, const Rational& time, int& plateaus) {
   const DrawList frame = frames.at(time);
   const auto seen = loupe_in(frame);
   ASSERT_TRUE(seen) << to_double(time);
-  const ExactGaps gaps = exact_gaps(frames.scene().system, time);
+  const ExactGaps gaps = exact_gaps(two_blocks_of(frames.scene().system)->blocks, time);
   const double tolerance = 1e-9 * seen->bounds.width;
   const double blue_gap = seen->blue.x - seen->face;
   const double red_gap = seen->red.x - seen->face - seen->blue.width;

@@ -62,7 +62,7 @@ TEST(Stage, BlocksStandOnOneBase) {
   const Font font;
   for (const char* width : {"4/5", "1", "3/2", "2"}) {
     Scene scene = scene_of(2, 1920, 1080);
-    scene.system.red.width = parse_rational(width);
+    scene.system.bodies[1].size = parse_rational(width);
     scene.show.overlays = {Overlay::masses};
     const auto log = make_collision_log(scene.system);
     const DrawList list = compose(scene, state_after(*log, 3));
@@ -177,7 +177,7 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
   for (const int digits : {5, 41, 80}) {
     for (const char* from : {"-20", "0"}) {
       Scene scene = scene_of(digits, 640, 360);
-      scene.system.red.velocity = 1;
+      scene.system.bodies[1].velocity[0] = 1;
       scene.time.from = parse_instant(from);
       scene.time.to = parse_instant("1");
       const auto log = make_collision_log(scene.system);
@@ -226,9 +226,9 @@ TEST(Stage, EdgesThatDoNotMoveAreSharp) {
 
 TEST(Stage, FollowsTheScenesGeometry) {
   Scene scene = scene_of(2, 1000, 500);
-  scene.system.wall_face = Rational(-1, 2);
-  scene.system.blue.width = Rational(1, 2);
-  scene.system.red.width = 2;
+  scene.system.walls[0].point[0] = Rational(-1, 2);
+  scene.system.bodies[0].size = Rational(1, 2);
+  scene.system.bodies[1].size = 2;
   const auto log = make_collision_log(scene.system);
   const Layout layout = lay_out(scene, log->last());
   const DrawList list = compose(scene, log->blocks_at(0));

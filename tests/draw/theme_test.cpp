@@ -73,24 +73,32 @@ TEST(Theme, EverythingStandsOutFromItsGround) {
   }
 }
 
+Scene scene_of(std::size_t bodies, Theme theme) {
+  Scene scene;
+  scene.system = {1, std::vector<Body>(bodies), {}};
+  scene.styles.resize(bodies);
+  scene.view.theme = theme;
+  return scene;
+}
+
 /// Bodies have further colours, or any that a scene gives them.
 TEST(Theme, BodiesStandOutFromTheirGround) {
   std::mt19937 random(1);
   for (const Theme theme : kThemes) {
     const Palette palette = palette_of(theme);
-    Bodies bodies{{1, std::vector<Body>(12), {}}, std::vector<BodyStyle>(12)};
-    for (const Part& part : parts_of(palette, colors_of(bodies, theme, nullptr))) {
+    Scene scene = scene_of(12, theme);
+    for (const Part& part : parts_of(palette, colors_of(scene, nullptr))) {
       // Filled areas with an edge may be pale.
       const bool is_pale = std::string(part.name) == "a block";
       if (is_pale) continue;
       EXPECT_GE(contrast(part.color, part.ground), part.least)
           << part.name << " of " << exact_text(theme);
     }
-    for (BodyStyle& style : bodies.styles) {
+    for (BodyStyle& style : scene.styles) {
       const auto level = [&] { return static_cast<std::uint8_t>(random() % 256); };
       style.color = {level(), level(), level()};
     }
-    for (const BlockColors& body : colors_of(bodies, theme, nullptr)) {
+    for (const BlockColors& body : colors_of(scene, nullptr)) {
       EXPECT_GE(contrast(body.text, body.fill), 4.5) << exact_text(theme);
       EXPECT_GE(contrast(body.label, palette.background), 4.5) << exact_text(theme);
       EXPECT_GE(contrast(body.line, palette.background), 3) << exact_text(theme);
@@ -101,8 +109,8 @@ TEST(Theme, BodiesStandOutFromTheirGround) {
 
 TEST(Theme, NeighboursDifferWithoutColours) {
   for (const Theme theme : {Theme::print, Theme::colorblind}) {
-    const Bodies bodies{{1, std::vector<Body>(12), {}}, std::vector<BodyStyle>(12)};
-    const std::vector<BlockColors> colors = colors_of(bodies, theme, nullptr);
+    const Scene scene = scene_of(12, theme);
+    const std::vector<BlockColors> colors = colors_of(scene, nullptr);
     for (std::size_t i = 1; i < colors.size(); ++i) EXPECT_NE(colors[i].bars, colors[i - 1].bars);
   }
 }
@@ -147,15 +155,18 @@ TEST(Theme, BlocksAreCalledByColoursThatTheyHave) {
 
 TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
   const auto name_of_red = [](Theme theme, const TwoBlocks& blocks, BodyStyle style = {}) {
-    const Bodies bodies{blocks.system, {style, {}, {}}};
-    return std::string(palette_of(theme, blocks, colors_of(bodies, theme, &blocks)).red.full_name);
+    Scene scene;
+    scene.system = blocks.system;
+    scene.styles[0] = style;
+    scene.view.theme = theme;
+    return std::string(palette_of(theme, blocks, colors_of(scene, &blocks)).red.full_name);
   };
-  BlockSystem system = article_system(2);
-  EXPECT_EQ(name_of_red(Theme::print, two_blocks_of(system)), "large block");
-  std::swap(system.red.mass, system.blue.mass);
-  EXPECT_EQ(name_of_red(Theme::colorblind, two_blocks_of(system)), "small block");
-  EXPECT_EQ(name_of_red(Theme::lecture, two_blocks_of(system)), "red");
-  TwoBlocks equal = two_blocks_of(article_system(1));
+  BodySystem system = article_system(2);
+  EXPECT_EQ(name_of_red(Theme::print, *two_blocks_of(system)), "large block");
+  std::swap(system.bodies[0].mass, system.bodies[1].mass);
+  EXPECT_EQ(name_of_red(Theme::colorblind, *two_blocks_of(system)), "small block");
+  EXPECT_EQ(name_of_red(Theme::lecture, *two_blocks_of(system)), "red");
+  TwoBlocks equal = *two_blocks_of(article_system(1));
   EXPECT_EQ(name_of_red(Theme::colorblind, equal), "right block");
   equal.side = -1;
   EXPECT_EQ(name_of_red(Theme::colorblind, equal), "left block");

@@ -10,7 +10,7 @@ namespace {
 
 struct Traced {
   explicit Traced(int digits, const Rational& from, const Rational& to, int columns)
-      : system(article_system(digits)),
+      : system(article_blocks(digits)),
         wedge(system),
         log(make_collision_log(system)),
         pieces(trajectory_of(*log, wedge, {from, to}, columns)) {}

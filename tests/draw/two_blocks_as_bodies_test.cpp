@@ -15,14 +15,14 @@ namespace {
 
 /// Two blocks beside a wall, written as [[body]].
 Scene as_bodies(Scene scene) {
-  scene.bodies = Bodies{two_blocks_of(scene.system).system, {{}, {}}};
+  for (Body& body : scene.system.bodies) body.name.clear();
   return scene;
 }
 
 /// The same, turned round in its frame.
 Scene turned_round(const Scene& scene) {
   Scene turned = as_bodies(scene);
-  BodySystem& system = turned.bodies->system;
+  BodySystem& system = turned.system;
   for (Body& body : system.bodies) {
     body.position[0] *= -1;
     body.velocity[0] *= -1;

@@ -49,15 +49,16 @@ struct Pictures {
   }
   /// The velocity as a point of the circle of radius 1; y is up.
   Point unit(const Motion& blue, const Motion& red) const {
-    const double m1 = to_double(scene.system.blue.mass);
-    const double m2 = to_double(scene.system.red.mass);
-    const double v1 = to_double(scene.system.blue.velocity);
-    const double v2 = to_double(scene.system.red.velocity);
+    const double m1 = to_double(scene.system.bodies[0].mass.value());
+    const double m2 = to_double(scene.system.bodies[1].mass.value());
+    const double v1 = to_double(scene.system.bodies[0].velocity[0]);
+    const double v2 = to_double(scene.system.bodies[1].velocity[0]);
     const double root = std::sqrt(m1 * v1 * v1 + m2 * v2 * v2);
     return {std::sqrt(m2) * red.velocity / root, std::sqrt(m1) * blue.velocity / root};
   }
   double theta() const {
-    return std::atan(std::sqrt(to_double(scene.system.blue.mass / scene.system.red.mass)));
+    return std::atan(std::sqrt(
+        to_double(scene.system.bodies[0].mass.value() / scene.system.bodies[1].mass.value())));
   }
 
   Scene scene;
@@ -136,8 +137,8 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
     EXPECT_EQ(Integer(static_cast<unsigned long>(red.size() + blue.size())), count);
     std::map<CollisionKind, std::size_t> seen;
     const BlockState start = log.blocks_at(0);
-    Point before = pictures.unit({0, to_double(pictures.scene.system.blue.velocity)},
-                                 {0, to_double(pictures.scene.system.red.velocity)});
+    Point before = pictures.unit({0, to_double(pictures.scene.system.bodies[0].velocity[0])},
+                                 {0, to_double(pictures.scene.system.bodies[1].velocity[0])});
     expect_near(figure.discs.front().centre, circle.at(before), "start", start.count);
     for (Integer k = 1; k <= count; ++k) {
       const Collision collision = log.blocks_collision(k);
@@ -294,8 +295,8 @@ TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
       for (const PathItem& path : figure.paths) {
         if (path.fill == kPalette.shade) area += area_of(path);
       }
-      const Point from = pictures.unit({0, to_double(pictures.scene.system.blue.velocity)},
-                                       {0, to_double(pictures.scene.system.red.velocity)});
+      const Point from = pictures.unit({0, to_double(pictures.scene.system.bodies[0].velocity[0])},
+                                       {0, to_double(pictures.scene.system.bodies[1].velocity[0])});
       const BlockState state =
           count == 0 ? pictures.log->blocks_at(0) : state_after(*pictures.log, count);
       const Point to = pictures.unit(state.blue, state.red);

@@ -69,7 +69,7 @@ void expect_accurate(const BlockSystem& system, const CollisionLog& log, const R
 
 TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
   for (int digits = 1; digits <= 20; ++digits) {
-    const BlockSystem system = article_system(digits);
+    const BlockSystem system = article_blocks(digits);
     const auto log = make_collision_log(system);
     for (const char* text : {"0", "3.5", "4", "6", "3.4999999", "3.50000001", "15"}) {
       const Rational t = parse_rational(text);
@@ -86,7 +86,7 @@ TEST(Accuracy, AtRandomTimes) {
   Random random(314159);
   SCOPED_TRACE(random.trace());
   for (int digits : {1, 2, 3, 5, 9, 12, 17, 25, 40, 100}) {
-    const BlockSystem system = article_system(digits);
+    const BlockSystem system = article_blocks(digits);
     const auto log = make_collision_log(system);
     for (int i = 0; i < 40; ++i) {
       // Half of the times close in on the turning point at every scale.
@@ -126,7 +126,7 @@ void expect_event(const oracle::ExactEvent& exact, CollisionKind kind, const Tim
 
 TEST(Accuracy, OfTheWholeLog) {
   for (int digits = 1; digits <= 3; ++digits) {
-    const BlockSystem system = article_system(digits);
+    const BlockSystem system = article_blocks(digits);
     const auto log = make_collision_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
     ASSERT_EQ(log->last(), run.size());
@@ -140,7 +140,7 @@ TEST(Accuracy, OfTheWholeLog) {
 
 TEST(Accuracy, OfTheStreamedLog) {
   for (int digits = 1; digits <= 4; ++digits) {
-    const BlockSystem system = article_system(digits);
+    const BlockSystem system = article_blocks(digits);
     const auto log = make_collision_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 4000);
     const auto batch = std::make_unique<CollisionBatch>();
@@ -160,7 +160,7 @@ TEST(Accuracy, OfTheStreamedLog) {
 
 TEST(Accuracy, LogAndStatesAreOneMotion) {
   // A little after each collision the state is the collision's, moved on.
-  const auto log = make_collision_log(article_system(6));
+  const auto log = make_collision_log(article_blocks(6));
   for (long k = 1; k < 314159; k += 997) {
     const Collision now = log->blocks_collision(k);
     const Collision next = log->blocks_collision(k + 1);
@@ -175,11 +175,11 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
 }
 
 TEST(Accuracy, NoBoundIsClaimedForAnEngineThatSteps) {
-  EXPECT_FALSE(make_collision_log(article_system(2), Engine::events)->bounds_at(3).has_value());
+  EXPECT_FALSE(make_collision_log(article_blocks(2), Engine::events)->bounds_at(3).has_value());
 }
 
 TEST(Accuracy, EnergyAndMomentumAreKept) {
-  const BlockSystem system = article_system(7);
+  const BlockSystem system = article_blocks(7);
   const auto log = make_collision_log(system);
   const double ratio = to_double(system.blue.mass / system.red.mass);
   for (long k = 1; k <= 3141592; k += 10007) {

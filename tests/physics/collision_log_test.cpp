@@ -44,10 +44,10 @@ Integer total(const Start& start) {
 TEST(Count, IsTheFirstDigitsOfPi) {
   for (int digits = 1; digits <= 50; ++digits) {
     const Integer expected(std::string(kDigitsOfPi).substr(0, static_cast<std::size_t>(digits)));
-    EXPECT_EQ(make_collision_log(article_system(digits))->last(), expected);
-    EXPECT_EQ(count_collisions(article_system(digits)), expected);
+    EXPECT_EQ(make_collision_log(article_blocks(digits))->last(), expected);
+    EXPECT_EQ(count_collisions(article_blocks(digits)), expected);
   }
-  EXPECT_TRUE(count_collisions(article_system(2000)).get_str().starts_with(kDigitsOfPi));
+  EXPECT_TRUE(count_collisions(article_blocks(2000)).get_str().starts_with(kDigitsOfPi));
 }
 
 /// floor(pi * base^places), by the digits.
@@ -78,7 +78,7 @@ TEST(Count, IsPiInEveryBaseButForAFew) {
   std::vector<int> exceptions;
   for (int base = kMinBase; base <= kMaxBase; ++base) {
     for (int digits = 1; digits <= 40; ++digits) {
-      const Integer counted = count_collisions(article_system(digits, base));
+      const Integer counted = count_collisions(article_blocks(digits, base));
       const Integer expected = floor_of_pi(base, digits - 1);
       if (counted == expected) continue;
       EXPECT_EQ(counted, expected + 1);
@@ -87,8 +87,8 @@ TEST(Count, IsPiInEveryBaseButForAFew) {
     }
   }
   EXPECT_EQ(exceptions, kRootsOfExceptions);
-  EXPECT_EQ(count_collisions(article_system(3, 2)), 12);
-  EXPECT_EQ(count_collisions(article_system(4, 2)), 25);
+  EXPECT_EQ(count_collisions(article_blocks(3, 2)), 12);
+  EXPECT_EQ(count_collisions(article_blocks(4, 2)), 25);
 }
 
 TEST(Count, DoesNotDependOnTheStartingGaps) {
@@ -103,7 +103,7 @@ TEST(Count, DoesNotDependOnTheScaleOfVelocitiesAndMasses) {
     EXPECT_EQ(total({"10000", "3/2", "2", "0", speed}), 314) << speed;
   }
   for (const char* unit : {"1e-320", "1e-200", "1e154", "1e300"}) {
-    BlockSystem system = article_system(3);
+    BlockSystem system = article_blocks(3);
     system.blue.mass *= parse_rational(unit);
     system.red.mass *= parse_rational(unit);
     EXPECT_EQ(count_collisions(system), 314) << unit;
@@ -209,7 +209,7 @@ TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
 
 TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
-    const auto log = make_collision_log(article_system(3), engine);
+    const auto log = make_collision_log(article_blocks(3), engine);
     EXPECT_NEAR(log->blocks_at(-1000).red.position, 1005, 1e-10);
     EXPECT_NEAR(log->blocks_at(-1000).blue.position, 2, 1e-10);
     const BlockState last = state_after(*log, 314);
@@ -233,7 +233,7 @@ TEST(Flights, CountBackwardsBeforeTimeZero) {
 
 TEST(Log, AlternatesAndBeginsWithTheBlocks) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
-    const auto log = make_collision_log(article_system(3), engine);
+    const auto log = make_collision_log(article_blocks(3), engine);
     double before = 0;
     for (long k = 1; k <= 314; ++k) {
       const Collision c = log->blocks_collision(k);
@@ -266,8 +266,8 @@ void expect_same(const Collision& a, const Collision& b, double tolerance) {
 
 TEST(Log, EnginesAgree) {
   for (int digits = 1; digits <= 5; ++digits) {
-    const auto unfolded = make_collision_log(article_system(digits), Engine::unfolded);
-    const auto stepped = make_collision_log(article_system(digits), Engine::events);
+    const auto unfolded = make_collision_log(article_blocks(digits), Engine::unfolded);
+    const auto stepped = make_collision_log(article_blocks(digits), Engine::events);
     ASSERT_EQ(unfolded->last(), stepped->last());
     for (long k = 1; k <= unfolded->last(); ++k) {
       expect_same(unfolded->blocks_collision(k), stepped->blocks_collision(k), 1e-8);
@@ -279,7 +279,7 @@ TEST(Log, EnginesAgree) {
 // With equal masses the last ray would be parallel to the line; a hair heavier, red lets blue catch
 // up with the wall again, after about 1e90 s.
 TEST(Log, KeepsAHairBetweenTheMasses) {
-  BlockSystem system = article_system(1);
+  BlockSystem system = article_blocks(1);
   system.red.mass = 1 + 1 / power(2, 300);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->last(), 4);
@@ -335,10 +335,10 @@ void expect_streamed(const CollisionLog& log, const Integer& first, const Intege
 TEST(Stream, HasEveryCollisionOfAnyRange) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
     for (const int digits : {1, 2, 3, 4}) {
-      const auto log = make_collision_log(article_system(digits), engine);
+      const auto log = make_collision_log(article_blocks(digits), engine);
       expect_streamed(*log, 1, log->last());
     }
-    const auto log = make_collision_log(article_system(4), engine);
+    const auto log = make_collision_log(article_blocks(4), engine);
     for (const long first : {1L, 2L, 63L, 64L, 1500L, 1571L, 2000L, 3141L}) {
       for (const long length : {0L, 1L, 2L, 63L, 64L, 65L, 511L, 513L, 1000L}) {
         expect_streamed(*log, first, std::min<Integer>(log->last(), first + length - 1));
@@ -349,7 +349,7 @@ TEST(Stream, HasEveryCollisionOfAnyRange) {
 
 TEST(Stream, StartsAnywhereInALogOfAnySize) {
   for (const int digits : {9, 16, 20, 40, 150}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     const Integer middle = log->last() / 2;
     for (const Integer& first : {Integer(1), Integer(middle - 700), Integer(log->last() - 1200)}) {
       expect_streamed(*log, first, first + 1100);
@@ -371,19 +371,19 @@ TEST(Log, RefusesInvalidSystems) {
   overlapping.red.position = Rational(29, 10);
   EXPECT_THROW(make_collision_log(overlapping), SceneError);
   EXPECT_THROW(count_collisions(overlapping), SceneError);
-  EXPECT_THROW(article_system(0), UsageError);
-  EXPECT_THROW(article_system(kMaxDigits + 1), UsageError);
-  EXPECT_THROW(article_system(3, kMinBase - 1), UsageError);
-  EXPECT_THROW(article_system(3, kMaxBase + 1), UsageError);
+  EXPECT_THROW(article_blocks(0), UsageError);
+  EXPECT_THROW(article_blocks(kMaxDigits + 1), UsageError);
+  EXPECT_THROW(article_blocks(3, kMinBase - 1), UsageError);
+  EXPECT_THROW(article_blocks(3, kMaxBase + 1), UsageError);
 }
 
 TEST(Log, RefusesToStoreTooMuch) {
-  EXPECT_THROW(make_collision_log(article_system(8), Engine::events), UsageError);
+  EXPECT_THROW(make_collision_log(article_blocks(8), Engine::events), UsageError);
 }
 
 TEST(Log, RefusesRatiosBeyondItsRange) {
-  EXPECT_THROW(make_collision_log(article_system(400)), UsageError);
-  EXPECT_EQ(make_collision_log(article_system(300))->last().get_str().size(), 300u);
+  EXPECT_THROW(make_collision_log(article_blocks(400)), UsageError);
+  EXPECT_EQ(make_collision_log(article_blocks(300))->last().get_str().size(), 300u);
 }
 
 }  // namespace

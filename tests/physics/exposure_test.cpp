@@ -119,7 +119,7 @@ TEST(Exposure, IsTheSumOfAllFlights) {
   const Rational turn(7, 2);
   for (int digits = 1; digits <= 6; ++digits) {
     SCOPED_TRACE(digits);
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     expect_the_sum_of_all_flights(*log, 0, 1);   // before the first collision
     expect_the_sum_of_all_flights(*log, 1, 2);   // the first
     expect_the_sum_of_all_flights(*log, 0, 10);  // all of them
@@ -132,12 +132,12 @@ TEST(Exposure, IsTheSumOfAllFlights) {
 }
 
 TEST(Exposure, IsTheSumOfMillionsOfFlights) {
-  const auto log = make_collision_log(article_system(8));
+  const auto log = make_collision_log(article_blocks(8));
   expect_the_sum_of_all_flights(*log, Rational(699, 200), Rational(701, 200));
 }
 
 TEST(Exposure, OfEveryEngineIsTheSumOfAllFlights) {
-  const auto log = make_collision_log(article_system(3), Engine::events);
+  const auto log = make_collision_log(article_blocks(3), Engine::events);
   expect_the_sum_of_all_flights(*log, 0, 10);
   expect_the_sum_of_all_flights(*log, Rational(17, 5), Rational(18, 5));
   BlockSystem light;
@@ -174,7 +174,7 @@ TEST(Exposure, IsAdditiveAtAnyNumberOfDigits) {
   SCOPED_TRACE(random.trace());
   for (const int digits : {1, 2, 3, 4, 6, 9, 14, 20, 60}) {
     SCOPED_TRACE(digits);
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     for (int i = 0; i < 40; ++i) {
       const Rational begin = Rational(7, 2) - random.rational(-1, 3, 100'000) / (i % 4 * 100 + 1);
       const Rational length = random.rational(0, 1, 10'000) / (i % 3 * 100 + 1) + Rational(1, 9999);
@@ -241,7 +241,7 @@ TEST(Exposure, AgreesWithInstants) {
   SCOPED_TRACE(random.trace());
   for (const int digits : {1, 3, 5, 12, 20}) {
     SCOPED_TRACE(digits);
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     const Rational turn(7, 2);
     expect_shares_of_instants(*log, 0, 1, random);
     expect_shares_of_instants(*log, Rational(3, 2), Rational(181, 120), random);
@@ -272,7 +272,7 @@ TEST(Exposure, BeforeTimeZeroRunsTheMotionBack) {
 
 TEST(Exposure, OfNoTimeIsTheInstant) {
   for (const int digits : {1, 3, 20}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     for (const Rational& time : {Rational(0), Rational(3, 2), Rational(7, 2), Rational(9)}) {
       const Exposure exposure = expose(*log, time, time);
       const BlockState state = log->blocks_at(time);
@@ -289,7 +289,7 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
 
 TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
   for (const int digits : {1, 3, 9}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     const Exposure forth = expose(*log, 3, 4);
     const Exposure back = expose(*log, 4, 3);
     for (const BlockName block : kBlocks) {
@@ -301,7 +301,7 @@ TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
 }
 
 TEST(Exposure, OfACornerPassesIt) {
-  BlockSystem system = article_system(5);
+  BlockSystem system = article_blocks(5);
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
   const Rational meeting = log->blocks_collision(1).time.hi;
@@ -312,7 +312,7 @@ TEST(Exposure, OfACornerPassesIt) {
 }
 
 TEST(Exposure, OfManyCollisionsHasSlowBouncesBetweenTheSamePlaces) {
-  const auto log = make_collision_log(article_system(9));
+  const auto log = make_collision_log(article_blocks(9));
   const Exposure exposure = expose(*log, Rational(7, 2) - Rational(1, 120), Rational(7, 2));
   ASSERT_TRUE(exposure.area_below);
   for (const BlockName block : kBlocks) {

@@ -86,7 +86,7 @@ TEST(Gaps, AroundTheTurnAtAnyNumberOfDigits) {
   SCOPED_TRACE(random.trace());
   for (int digits : {1, 2, 3, 4, 5, 6, 7, 9, 12, 15, 17, 20, 40, 100}) {
     SCOPED_TRACE(digits);
-    BlockSystem system = article_system(digits);
+    BlockSystem system = article_blocks(digits);
     // A wall elsewhere takes the digits from positions.
     if (digits % 2 == 0) {
       for (Rational* x : {&system.wall_face, &system.blue.position, &system.red.position}) {
@@ -113,7 +113,7 @@ TEST(Gaps, JustAfterACollision) {
   SCOPED_TRACE(random.trace());
   for (int digits = 1; digits <= 20; ++digits) {
     SCOPED_TRACE(digits);
-    const BlockSystem system = article_system(digits);
+    const BlockSystem system = article_blocks(digits);
     const auto log = make_collision_log(system);
     for (std::int64_t i = 0; i < many(10); ++i) {
       const Integer index = any_index(random, log->last());
@@ -140,7 +140,7 @@ TEST(Gaps, OfRandomSystems) {
 
 TEST(Gaps, BeforeAndAfterTheCorner) {
   // The blocks touch and move to the wall together: all collisions happen at once.
-  BlockSystem system = article_system(4);
+  BlockSystem system = article_blocks(4);
   system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2;
   system.blue.velocity = system.red.velocity;
   const auto log = make_collision_log(system);
@@ -150,7 +150,7 @@ TEST(Gaps, BeforeAndAfterTheCorner) {
 }
 
 TEST(Gaps, OfALightRedBlockAreExact) {
-  BlockSystem system = article_system(1);
+  BlockSystem system = article_blocks(1);
   system.red.mass = Rational(1, 3);
   const auto log = make_collision_log(system);
   for (int i = 0; i < 40; ++i) expect_gaps(system, *log, Rational(i) / 7);
@@ -158,7 +158,7 @@ TEST(Gaps, OfALightRedBlockAreExact) {
 }
 
 TEST(Gaps, OfEnginesThatStepAreDifferencesOfPositions) {
-  const BlockSystem system = article_system(3);
+  const BlockSystem system = article_blocks(3);
   const auto log = make_collision_log(system, Engine::events);
   const auto exact = make_collision_log(system);
   for (int i = 0; i < 200; ++i) {

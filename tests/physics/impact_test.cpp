@@ -60,14 +60,14 @@ void expect_sum(const BlockSystem& system, const CollisionLog& log, CollisionKin
 
 std::vector<BlockSystem> systems() {
   std::vector<BlockSystem> result;
-  for (int digits = 1; digits <= 4; ++digits) result.push_back(article_system(digits));
-  result.push_back(article_system(3));
+  for (int digits = 1; digits <= 4; ++digits) result.push_back(article_blocks(digits));
+  result.push_back(article_blocks(3));
   result.back().blue.velocity = -1;  // the wall first
-  result.push_back(article_system(1));
+  result.push_back(article_blocks(1));
   result.back().red.mass = Rational(1, 50);
-  result.push_back(article_system(3));
+  result.push_back(article_blocks(3));
   result.back().blue.position = Rational(1, 2);  // all at once, in the corner
-  result.push_back(article_system(2));
+  result.push_back(article_blocks(2));
   result.back().blue = {Rational(3, 7), 3, Rational(-1, 3), Rational(1, 2)};
   return result;
 }
@@ -92,7 +92,7 @@ TEST(Impact, IsTheSumOfItsCollisionsByEveryEngine) {
 }
 
 TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
-  const BlockSystem system = article_system(3);
+  const BlockSystem system = article_blocks(3);
   const auto log = make_collision_log(system);
   for (Integer index = 1; index <= log->last(); ++index) {
     const Collision c = log->blocks_collision(index);
@@ -106,7 +106,7 @@ TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
 }
 
 TEST(Impact, GoesOnBeforeTimeZero) {
-  BlockSystem system = article_system(3);
+  BlockSystem system = article_blocks(3);
   const auto whole = make_collision_log(system);
   // The same run, with time 0 in the middle of it.
   const oracle::ExactState start =
@@ -169,7 +169,7 @@ void expect_oracles_motion(const BlockSystem& system, const CollisionLog& log, c
 TEST(Impact, DoesToTheBlocksWhatTheOracleSaysAtAnyNumberOfDigits) {
   for (int digits : {2, 5, 9, 20, 60}) {
     SCOPED_TRACE(digits);
-    const BlockSystem system = article_system(digits);
+    const BlockSystem system = article_blocks(digits);
     const auto log = make_collision_log(system);
     expect_oracles_motion(system, *log, 0, 10);
     expect_oracles_motion(system, *log, 3, parse_rational("3.6"));
@@ -180,7 +180,7 @@ TEST(Impact, DoesToTheBlocksWhatTheOracleSaysAtAnyNumberOfDigits) {
 
 TEST(CountNear, IsTheCountButForCollisionsWithinItsRounding) {
   for (int digits : {1, 3, 6, 12, 20}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     for (const char* text :
          {"-3", "0", "1", "2.1", "3.4", "3.4999", "3.5000001", "4", "5.5", "50"}) {
       const Rational t(parse_rational(text));
@@ -192,7 +192,7 @@ TEST(CountNear, IsTheCountButForCollisionsWithinItsRounding) {
 }
 
 TEST(CountNear, IsExactWhereCollisionsAreStored) {
-  BlockSystem system = article_system(1);
+  BlockSystem system = article_blocks(1);
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
     const auto log = make_collision_log(system, engine);  // at 2, 3 and 4
     EXPECT_EQ(log->count_near({1.99, 0}), 0);
@@ -204,7 +204,7 @@ TEST(CountNear, IsExactWhereCollisionsAreStored) {
 }
 
 TEST(CountNear, CountsAllOfACornerAtOnce) {
-  BlockSystem system = article_system(3);
+  BlockSystem system = article_blocks(3);
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
   const Rational corner = corner_of(system)->time;

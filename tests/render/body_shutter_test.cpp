@@ -27,7 +27,8 @@ namespace {
 Scene scene_of(BodySystem system, const Rational& end) {
   Scene scene;
   const std::size_t count = system.bodies.size();
-  scene.bodies = Bodies{std::move(system), std::vector<BodyStyle>(count)};
+  scene.system = std::move(system);
+  scene.styles.resize(count);
   scene.view.width_px = 320;
   scene.view.height_px = 180;
   scene.view.x = {0, 8};
@@ -65,7 +66,7 @@ std::vector<double> mean_of_instants(const Scene& open, std::int64_t frame) {
   constexpr int kInstants = 1000;
   Scene scene = open;
   scene.view.shutter = 0;
-  const auto log = make_log(scene.bodies->system, Rational(scene.time.to.offset));
+  const auto log = make_log(scene.system, Rational(scene.time.to.offset));
   const Schedule schedule = make_schedule(scene, *log);
   const Composition composition(scene, *log);
   const Integer count = log->count_at(schedule.time_of(frame));
@@ -298,7 +299,7 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
     EXPECT_LE(difference.worst, 20) << frame;
     EXPECT_LE(difference.mean, 0.1) << frame;
   }
-  scene.bodies->system.bodies[2].size = Rational(1, 2);  // now all are large
+  scene.system.bodies[2].size = Rational(1, 2);  // now all are large
   scene.view.width_px = 640;
   scene.view.height_px = 360;
   for (const std::int64_t frame : {0, 3, 5}) {

@@ -39,7 +39,7 @@ std::string count_of(const DrawList& list) {
 
 Scene scene_of(const BlockSystem& system) {
   Scene scene;
-  scene.system = system;
+  scene.system = system_of(system);
   scene.view.width_px = 64;
   scene.view.height_px = 36;
   scene.view.frame_rate = 2;
@@ -149,7 +149,7 @@ TEST(CountsShown, AreRightForAnyMassRatio) {
 
 TEST(CountsShown, AreRightForAnyNumberOfDigits) {
   for (int digits = 1; digits <= 40; ++digits) {
-    expect_everywhere(article_system(digits));
+    expect_everywhere(article_blocks(digits));
     if (HasFailure()) return;
   }
 }
@@ -157,7 +157,7 @@ TEST(CountsShown, AreRightForAnyNumberOfDigits) {
 /// Pictures, also of sheets; pages and captions of videos are decimal.
 TEST(CountsShown, AreInTheBaseOfTheScene) {
   for (const auto& [base, digits] : {std::pair{2, 9}, {3, 6}, {16, 3}, {36, 3}}) {
-    Scene scene = scene_of(article_system(digits, base));
+    Scene scene = scene_of(article_blocks(digits, base));
     scene.show.base = base;
     const auto log = make_collision_log(scene.system);
     for (const Anchored& at : anchors_of(*log)) {
@@ -187,7 +187,7 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
 }
 
 TEST(CountsShown, AreRightInWords) {
-  Scene scene = scene_of(article_system(3));
+  Scene scene = scene_of(article_blocks(3));
   const auto log = log_of(scene);
   const auto sentence = [&](const Integer& at_end, const Integer& total) {
     const std::string text = describe_video(scene, *log, {at_end, total});
@@ -227,21 +227,21 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
         {10, 5, "the first 5 digits of π", "3.1415"},
         {2, 5, "the first 6 digits of π in base 2", "11.0010"},
         {16, 3, "the first 3 digits of π in base 16", "3.24"}}) {
-    const auto [said, alt] = texts(article_system(digits, base), base);
+    const auto [said, alt] = texts(article_blocks(digits, base), base);
     EXPECT_TRUE(said.ends_with(fmt::format(": {}, {}\n", words, pi))) << said;
     EXPECT_TRUE(alt.ends_with(fmt::format(" The count has {}: {}.", words, pi))) << alt;
   }
-  EXPECT_TRUE(texts(article_system(100), 10).first.ends_with("the first 100 digits of π\n"));
-  BlockSystem thrown = article_system(3);
+  EXPECT_TRUE(texts(article_blocks(100), 10).first.ends_with("the first 100 digits of π\n"));
+  BlockSystem thrown = article_blocks(3);
   thrown.blue.velocity = Rational(-1, 3);
-  BlockSystem lossy = article_system(3);
+  BlockSystem lossy = article_blocks(3);
   lossy.blocks_restitution = Rational(9999, 10000);
   for (const auto& [system, base] :
-       {std::pair{system_of_ratio(50), 10}, {article_system(3), 2}, {thrown, 10}, {lossy, 10}}) {
+       {std::pair{system_of_ratio(50), 10}, {article_blocks(3), 2}, {thrown, 10}, {lossy, 10}}) {
     const auto [said, alt] = texts(system, base);
     EXPECT_FALSE(contains(said + alt, "π")) << said << alt;
   }
-  Scene cut = scene_of(article_system(3));
+  Scene cut = scene_of(article_blocks(3));
   cut.time.to = Rational(7, 2);
   const auto run = log_of(cut);
   EXPECT_FALSE(contains(captions(cut, *run, make_schedule(cut, *run)), "π"));
@@ -286,7 +286,7 @@ TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
 
 /// Blocks that lose so much that they never part.
 TEST(CountsShown, InfinitelyManyAreSaidToBe) {
-  BlockSystem system = article_system(2);
+  BlockSystem system = article_blocks(2);
   system.blocks_restitution = system.wall_restitution = Rational(1, 2);
   for (const Theme theme : {Theme::article, Theme::lecture}) {
     Scene scene = scene_of(system);
@@ -315,8 +315,8 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
 
 TEST(CountsShown, AreRightInTheSecondsOfAStoryboard) {
   Storyboard story;
-  story.view = scene_of(article_system(3)).view;
-  Scene run = scene_of(article_system(3));
+  story.view = scene_of(article_blocks(3)).view;
+  Scene run = scene_of(article_blocks(3));
   run.time.to = Instant::last();
   run.pacing.duration_s = 4;
   run.pacing.hold_end_s = 1;

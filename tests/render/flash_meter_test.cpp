@@ -144,8 +144,8 @@ Scene scene_of(int digits, double shown_length) {
   scene.system = article_system(digits);
   scene.view.width_px = 320;
   scene.view.height_px = 180;
-  scene.view.x = {scene.system.wall_face - Rational(1, 2),
-                  scene.system.wall_face + Rational(shown_length)};
+  scene.view.x = {scene.system.walls[0].point[0] - Rational(1, 2),
+                  scene.system.walls[0].point[0] + Rational(shown_length)};
   return scene;
 }
 

@@ -204,16 +204,17 @@ TEST(Hits, OfALoopAreSeenInBothDirections) {
 TEST(Hits, ThatComeEvenlyDoNotComeAndGo) {
   // A blue block between the wall and a red one that is too heavy to give way.
   Scene scene = film_of(1);
-  scene.system.red.mass = power(100, 100);
-  scene.system.red.velocity = 0;
+  scene.system.bodies[1].mass = power(100, 100);
+  scene.system.bodies[1].velocity[0] = 0;
   scene.time.to = Rational(5);
   for (int tenths = 74; tenths <= 600; tenths += 7) {
     SCOPED_TRACE(tenths);
     // Two hits in the time of a passage there and back.
-    scene.system.blue.velocity = Rational(tenths) / 10 * 3;
+    scene.system.bodies[0].velocity[0] = Rational(tenths) / 10 * 3;
     const auto log = make_collision_log(scene.system);
     const Schedule schedule = make_schedule(scene, *log);
-    const double rate = to_double(scene.system.blue.velocity / (2 + scene.system.blue_gap()));
+    const double rate = to_double(scene.system.bodies[0].velocity[0] /
+                                  (2 + two_blocks_of(scene.system)->blocks.blue_gap()));
     for (std::int64_t frame = 60; frame < 300; ++frame) {
       const FrameState state = state_of(*log, schedule, frame);
       EXPECT_NEAR(state.hits_per_s, rate, rate < 28 ? 1e-6 : 4) << frame;
@@ -224,7 +225,7 @@ TEST(Hits, ThatComeEvenlyDoNotComeAndGo) {
 
 TEST(Hits, BeforeTimeZero) {
   Scene scene = film_of(2);
-  scene.system.red.velocity = 1;
+  scene.system.bodies[1].velocity[0] = 1;
   scene.time.from = Rational(-9);
   scene.time.to = Rational(1);
   EXPECT_GT(expect_true_hits(scene).hits, 10);
@@ -234,7 +235,7 @@ TEST(Hits, OfARunThatFollowsAnotherClock) {
   const Scene leading = film_of(2);
   const auto leader = make_collision_log(leading.system);
   const Schedule schedule = make_schedule(leading, *leader);
-  BlockSystem other = article_system(1);
+  BlockSystem other = article_blocks(1);
   other.red.mass = Rational(1, 2);  // the exact list of events
   EXPECT_GT(expect_true_hits(*make_collision_log(other), schedule).hits, 10);
   EXPECT_GT(expect_true_hits(*make_collision_log(article_system(2), Engine::events), schedule).hits,
@@ -243,8 +244,8 @@ TEST(Hits, OfARunThatFollowsAnotherClock) {
 
 TEST(Hits, OfACornerAreACrowd) {
   Scene scene = film_of(3);
-  scene.system.red.position = scene.system.blue.position + 1;
-  scene.system.blue.velocity = scene.system.red.velocity;
+  scene.system.bodies[1].position[0] = scene.system.bodies[0].position[0] + 1;
+  scene.system.bodies[0].velocity[0] = scene.system.bodies[1].velocity[0];
   const Seen seen = expect_true_hits(scene);
   EXPECT_EQ(seen.hits, 0);
   EXPECT_GT(seen.crowded_frames, 0);
@@ -271,7 +272,7 @@ TEST(Hits, OfTwentyDigitsCostNoMore) {
 
 Scene any_film(Random& random) {
   Scene scene = film_of(static_cast<int>(random.integer(1, 2)));
-  scene.system.red.mass += random.rational(0, 20, 7);
+  scene.system.bodies[1].mass.value() += random.rational(0, 20, 7);
   scene.time.from = random.rational(0, 3, 30);
   scene.time.to = random.rational(4, 9, 30);
   scene.time.speed = Rational(random.integer(1, 8)) / 4;
@@ -338,7 +339,8 @@ Scene scene_of_bodies(int dimensions) {
     system.walls.push_back({"upper", {0, 4}, {0, -1}});
   }
   Scene scene;
-  scene.bodies = Bodies{std::move(system), std::vector<BodyStyle>(2)};
+  scene.system = std::move(system);
+  scene.styles.resize(2);
   scene.view.frame_rate = kFrames_hz;
   scene.time.to = Rational(6);
   return scene;
@@ -347,9 +349,9 @@ Scene scene_of_bodies(int dimensions) {
 /// Also of those that a film which runs backwards has undone.
 TEST(FrameStates, PairsThatMetAreThoseOfTheNewestCollisions) {
   Scene scene = scene_of_bodies(1);
-  scene.bodies->system.bodies[0].velocity[0] = 300;
+  scene.system.bodies[0].velocity[0] = 300;
   scene.pacing.loop = true;
-  const auto log = make_log(scene.bodies->system, Rational(6));
+  const auto log = make_log(scene.system, Rational(6));
   const Schedule schedule = make_schedule(scene, *log);
   int backwards = 0;
   for (Rational video_s = Rational(1, 3); video_s < 11; video_s += Rational(1, 3)) {
@@ -375,7 +377,7 @@ TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
   for (const int dimensions : {1, 2}) {
     SCOPED_TRACE(dimensions);
     const Scene scene = scene_of_bodies(dimensions);
-    const BodySystem& system = scene.bodies->system;
+    const BodySystem& system = scene.system;
     const auto log = make_log(system, Rational(6));
     const Schedule schedule = make_schedule(scene, *log);
     int hits = 0;

@@ -26,8 +26,8 @@ Scene scene_of_digits(int digits) {
 /// Any masses and places, also parts of a run, and runs before time 0.
 Scene any_run(Random& random) {
   Scene scene = scene_of_digits(static_cast<int>(random.integer(1, 40)));
-  if (random.integer(0, 1) == 0) scene.system.red.mass = random.rational(1, 5000, 7) + 1;
-  if (random.integer(0, 1) == 0) scene.system.blue.position += random.rational(0, 1, 5);
+  if (random.integer(0, 1) == 0) scene.system.bodies[1].mass = random.rational(1, 5000, 7) + 1;
+  if (random.integer(0, 1) == 0) scene.system.bodies[0].position[0] += random.rational(0, 1, 5);
   if (random.integer(0, 1) == 0) scene.time.from = Rational(random.rational(0, 8, 9) - 4);
   if (random.integer(0, 1) == 0) scene.time.to = random.rational(4, 12, 9);
   return scene;
@@ -102,7 +102,7 @@ TEST(SheetInstants, AreByCountWhereTheTurnIsShown) {
 
 TEST(SheetInstants, OfACornerAreByTime) {
   Scene scene = scene_of_digits(3);
-  scene.system.blue.position = Rational(1, 2);
+  scene.system.bodies[0].position[0] = Rational(1, 2);
   EXPECT_EQ(spread_instants(scene, 5), spread_instants(scene, 5, Spacing::time));
   EXPECT_THROW(spread_instants(scene, 5, Spacing::count), UsageError);
 }
@@ -193,7 +193,7 @@ TEST(SheetCaptions, DoNotRepeatThePicture) {
   scene.show.overlays = {Overlay::time};
   EXPECT_EQ(captions_of(scene, {Rational(0), Rational(4)}),
             (Captions{"t = turn − 3.5", "t = turn + 0.5"}));
-  scene.system.red.velocity = 0;
+  scene.system.bodies[1].velocity[0] = 0;
   EXPECT_EQ(captions_of(scene, {Rational(0), Rational(4)}), (Captions{"", ""})) << "no turn";
 }
 

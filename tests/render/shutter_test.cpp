@@ -138,11 +138,11 @@ TEST(Shutter, FramesAcrossStretchesAreMeansOfInstants) {
 /// Other widths and masses: edges that are not on whole pixels in any direction.
 TEST(Shutter, FramesOfOddBlocksAreMeansOfInstants) {
   Scene scene = scene_of(3, {500, 300}, Rational(1, 2));
-  scene.system.blue.width = Rational(5, 7);
-  scene.system.red.width = Rational(13, 11);
-  scene.system.blue.velocity = Rational(-1, 3);
+  scene.system.bodies[0].size = Rational(5, 7);
+  scene.system.bodies[1].size = Rational(13, 11);
+  scene.system.bodies[0].velocity[0] = Rational(-1, 3);
   expect_mean_of_instants(scene, {0, 100, 190, 200, 210, 220});
-  scene.system.red.width = Rational(1, 13);  // hardly more than its line
+  scene.system.bodies[1].size = Rational(1, 13);  // hardly more than its line
   expect_mean_of_instants(scene, {0, 100, 200, 210});
 }
 
@@ -264,7 +264,7 @@ TEST(Shutter, OfAStillThatNoFrameShowsRunsOnAtTheScenesSpeed) {
 TEST(Shutter, OfASceneWithoutCollisionsNeedsNoEnd) {
   const testing_support::TemporaryFolder folder;
   Scene scene = scene_of(3, {320, 180}, 1);
-  scene.system.red.velocity = 1;
+  scene.system.bodies[1].velocity[0] = 1;
   EXPECT_NO_THROW(render_still(scene, Rational(1), folder / "still.png"));
 }
 

@@ -80,7 +80,7 @@ Instant any_instant(Random& random, const Integer& total) {
 Scene any_scene(Random& random) {
   Scene scene;
   scene.system = article_system(static_cast<int>(random.integer(1, 12)));
-  if (random.integer(0, 2) == 0) scene.system.red.mass = random.rational(1, 5000, 7) + 1;
+  if (random.integer(0, 2) == 0) scene.system.bodies[1].mass = random.rational(1, 5000, 7) + 1;
   scene.view.width_px = 96;
   scene.view.height_px = 54;
   scene.view.frame_rate = random.integer(0, 1) == 0 ? Rational(4) : Rational(5000, 1001);

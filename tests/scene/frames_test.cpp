@@ -57,7 +57,7 @@ TEST(Frames, RefusesEmptyAndEndlessSpans) {
   EXPECT_EQ(frames(scene_with(3, "0", "1000", "1000", "1")), 1);
 
   Scene receding = scene_with(3, "0", "last", "1", "60");
-  receding.system.red.velocity = 1;
+  receding.system.bodies[1].velocity[0] = 1;
   EXPECT_THROW(frames(receding), UsageError);
 }
 

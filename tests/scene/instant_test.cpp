@@ -59,7 +59,7 @@ Counts counts_at(const CollisionLog& log, const std::string& text, const char* h
 
 TEST(Instant, OfACollisionCountsExactlyThoseUntilIt) {
   for (int digits = 1; digits <= 40; ++digits) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_collision_log(article_blocks(digits));
     const Integer total = log->last();
     for (const Integer& index : {Integer(1), Integer(2), Integer(total / 3 + 1),
                                  Integer((total + 1) / 2), Integer(total - 1), total}) {
@@ -93,14 +93,14 @@ TEST(Instant, OfTheLastCollisionCountsAllOfThem) {
 }
 
 TEST(Instant, OfTheFirstCollisionsIsExact) {
-  const auto log = make_collision_log(article_system(3));
+  const auto log = make_collision_log(article_blocks(3));
   EXPECT_EQ(time_of(Instant::collision(1), *log), 2);
   EXPECT_EQ(time_of(Instant::collision(2), *log), parse_rational("2.750075"));
   EXPECT_EQ(time_of(Instant::turn(), *log), Rational(7, 2));
 }
 
 TEST(Instant, OfAnEndlesslyLateCollisionIsFound) {
-  BlockSystem system = article_system(1);
+  BlockSystem system = article_blocks(1);
   system.red.mass = 1 + 1 / power(2, 300);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->blocks_at(time_of(Instant::last(), *log)).count, 4);
@@ -167,13 +167,13 @@ TEST(Instant, SaysWhatTheSceneHas) {
             "'turn': there is no turn; only two blocks beside a wall have one, if they move; give "
             "a time");
   EXPECT_EQ(problem(resting, "last"), "'last': no collision happens from time 0 on; give a time");
-  BlockSystem receding = article_system(2);
+  BlockSystem receding = article_blocks(2);
   receding.red.velocity = 1;
   EXPECT_EQ(problem(receding, "last"), "'last': no collision happens from time 0 on; give a time");
   EXPECT_EQ(problem(receding, "#1"), "collision #1: the scene has collisions #-30 to #0");
   EXPECT_EQ(problem(resting, "#1"), "collision #1: the scene has no collisions");
-  EXPECT_EQ(problem(article_system(2), "#32"), "collision #32: the scene has collisions #1 to #31");
-  EXPECT_EQ(problem(article_system(2), "#0"), "collision #0: the scene has collisions #1 to #31");
+  EXPECT_EQ(problem(article_blocks(2), "#32"), "collision #32: the scene has collisions #1 to #31");
+  EXPECT_EQ(problem(article_blocks(2), "#0"), "collision #0: the scene has collisions #1 to #31");
 }
 
 }  // namespace

@@ -23,10 +23,10 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_F(SceneFileTest, EmptyFileIsTheArticlesScene) {
   const Scene scene = load("");
-  EXPECT_EQ(scene.system.red.mass, 10000);
-  EXPECT_EQ(scene.system.red.position, 5);
-  EXPECT_EQ(scene.system.red.velocity, -1);
-  EXPECT_EQ(scene.system.blue_gap(), Rational(3, 2));
+  EXPECT_EQ(scene.system.bodies[1].mass.value(), 10000);
+  EXPECT_EQ(scene.system.bodies[1].position[0], 5);
+  EXPECT_EQ(scene.system.bodies[1].velocity[0], -1);
+  EXPECT_EQ(two_blocks_of(scene.system)->blocks.blue_gap(), Rational(3, 2));
   EXPECT_EQ(scene.view.x.low, -1);
   EXPECT_EQ(scene.view.x.high, 12);
   EXPECT_EQ(scene.view.width_px, 1920);
@@ -93,7 +93,7 @@ TEST_F(SceneFileTest, LeavesKeysOut) {
   builder.read_text("text", "digits = 0\n[view]\nfps = 0\ntheme = \"dark\"\n");
   const Scene scene = builder.build_scene();
   EXPECT_EQ(scene.view.frame_rate, Scene().view.frame_rate);
-  EXPECT_EQ(scene.system.red.mass, Scene().system.red.mass);
+  EXPECT_EQ(scene.system.bodies[1].mass.value(), Scene().system.bodies[1].mass.value());
   EXPECT_EQ(scene.view.theme, Theme::dark);
 }
 
@@ -122,16 +122,16 @@ TEST_F(SceneFileTest, ReadsEveryKey) {
     to = "last+0.25"
     speed = "1/2"
   )");
-  EXPECT_EQ(scene.system.wall_face, Rational(-1, 2));
+  EXPECT_EQ(scene.system.walls[0].point[0], Rational(-1, 2));
   EXPECT_EQ(scene.view.shutter, Rational(1, 2));
-  EXPECT_EQ(scene.system.blue.mass, Rational(1, 3));
-  EXPECT_EQ(scene.system.blue.position, Rational(9, 4));
-  EXPECT_EQ(scene.system.blue.velocity, Rational(1, 10)) << "a decimal means the decimal";
-  EXPECT_EQ(scene.system.blue.width, Rational(1, 2));
-  EXPECT_EQ(scene.system.red.mass, parse_rational("1e32"));
-  EXPECT_EQ(scene.system.red.position, 7);
-  EXPECT_EQ(scene.system.red.velocity, Rational(-3, 2));
-  EXPECT_EQ(scene.system.red.width, 2);
+  EXPECT_EQ(scene.system.bodies[0].mass.value(), Rational(1, 3));
+  EXPECT_EQ(scene.system.bodies[0].position[0], Rational(9, 4));
+  EXPECT_EQ(scene.system.bodies[0].velocity[0], Rational(1, 10)) << "a decimal means the decimal";
+  EXPECT_EQ(scene.system.bodies[0].size, Rational(1, 2));
+  EXPECT_EQ(scene.system.bodies[1].mass.value(), parse_rational("1e32"));
+  EXPECT_EQ(scene.system.bodies[1].position[0], 7);
+  EXPECT_EQ(scene.system.bodies[1].velocity[0], Rational(-3, 2));
+  EXPECT_EQ(scene.system.bodies[1].size, 2);
   EXPECT_EQ(scene.view.x.low, -2);
   EXPECT_EQ(scene.view.x.high, Rational(25, 2));
   EXPECT_EQ(scene.view.y.low, Rational(-3, 2));
@@ -178,8 +178,9 @@ TEST_F(SceneFileTest, DecimalsAreReadAsTheyStand) {
     mass = 1.00000000000000000000000000000001
     position = +5.000000000000000000000000000000000000001
   )");
-  EXPECT_EQ(scene.system.red.mass, parse_rational("1.00000000000000000000000000000001"));
-  EXPECT_EQ(scene.system.red.position, 5 + 1 / power(10, 39));
+  EXPECT_EQ(scene.system.bodies[1].mass.value(),
+            parse_rational("1.00000000000000000000000000000001"));
+  EXPECT_EQ(scene.system.bodies[1].position[0], 5 + 1 / power(10, 39));
   EXPECT_EQ(scene.view.x.high, Rational(25, 2));
   EXPECT_EQ(scene.view.y.low, -1 - 1 / power(10, 24));
   EXPECT_EQ(scene.view.y.high, Rational(21, 20));
@@ -189,8 +190,9 @@ TEST_F(SceneFileTest, DecimalsAreReadAsTheyStand) {
 /// As editors of other systems write it.
 TEST_F(SceneFileTest, LineEndsAndEncodingMayBeOfAnotherSystem) {
   const char* const text = "[red]\r\nmass = 1.00000000000000000000000000000001\r\n# x\r\n";
-  EXPECT_EQ(load(text).system.red.mass, parse_rational("1.00000000000000000000000000000001"));
-  EXPECT_EQ(load(std::string("\xef\xbb\xbf") + text).system.red.mass,
+  EXPECT_EQ(load(text).system.bodies[1].mass.value(),
+            parse_rational("1.00000000000000000000000000000001"));
+  EXPECT_EQ(load(std::string("\xef\xbb\xbf") + text).system.bodies[1].mass.value(),
             parse_rational("1.00000000000000000000000000000001"));
   EXPECT_EQ(problems("[red]\r\nmas = 1\r\n").at(0),
             path_ + ":2: red.mas: unknown key; did you mean 'red.mass'?");
@@ -208,7 +210,7 @@ TEST_F(SceneFileTest, ColumnsBehindOtherScriptsAreFound) {
   const Scene inlined = load(
       "golden = { frames = ['0'], size = '10x10' }\n"
       "red = { width = 'by-mass', mass = 2.50 }\n");
-  EXPECT_EQ(inlined.system.red.mass, Rational(5, 2));
+  EXPECT_EQ(inlined.system.bodies[1].mass.value(), Rational(5, 2));
 }
 
 TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
@@ -302,7 +304,8 @@ TEST_F(SceneFileTest, OptionsWinAndAreNamed) {
   const Scene scene = builder.build_scene();
   EXPECT_EQ(scene.view.width_px, 1280);
   EXPECT_EQ(scene.view.height_px, 720);
-  EXPECT_EQ(scene.system.red.mass, 300) << "the ratio is to the blue mass of the file";
+  EXPECT_EQ(scene.system.bodies[1].mass.value(), 300)
+      << "the ratio is to the blue mass of the file";
 
   builder.set("--size", "view.size", "1280");
   builder.set("--fps", "view.fps", "-1");

@@ -155,15 +155,15 @@ TEST(SceneKeys, DigitsAreThoseOfTheBaseInTheEnd) {
   ScriptBuilder builder;
   builder.set("test", "blue.mass", "3");
   builder.set("--digits", "digits", "4");
-  EXPECT_EQ(builder.build_scene().system.red.mass, 3'000'000);
+  EXPECT_EQ(builder.build_scene().system.bodies[1].mass.value(), 3'000'000);
   builder.set("--base", "base", "2");
-  EXPECT_EQ(builder.build_scene().system.red.mass, 192);
+  EXPECT_EQ(builder.build_scene().system.bodies[1].mass.value(), 192);
   builder.set("--mass-ratio", "mass-ratio", "16");
-  EXPECT_EQ(builder.build_scene().system.red.mass, 48);
+  EXPECT_EQ(builder.build_scene().system.bodies[1].mass.value(), 48);
   builder.set("test", "digits", "2");
-  EXPECT_EQ(builder.build_scene().system.red.mass, 12);
+  EXPECT_EQ(builder.build_scene().system.bodies[1].mass.value(), 12);
   builder.set("test", "red.mass", "5");
-  EXPECT_EQ(builder.build_scene().system.red.mass, 5);
+  EXPECT_EQ(builder.build_scene().system.bodies[1].mass.value(), 5);
   EXPECT_EQ(builder.build_scene().show.base, 2);
 }
 
@@ -172,8 +172,8 @@ TEST(SceneKeys, RestitutionIsThatOfBlocksAndWall) {
   const auto expect = [&](const char* key, const char* text, const Rational& blocks,
                           const Rational& wall) {
     builder.set("test", key, text);
-    const BlockSystem system = builder.build_scene().system;
-    EXPECT_EQ(system.blocks_restitution, blocks) << key;
+    const BodySystem system = builder.build_scene().system;
+    EXPECT_EQ(system.restitution, blocks) << key;
     EXPECT_EQ(system.wall_restitution, wall) << key;
   };
   expect("blocks.restitution", "1/3", Rational(1, 3), 1);
@@ -195,9 +195,9 @@ TEST(SceneKeys, WidthByMassFollowsTheMassesInTheEnd) {
   ScriptBuilder builder;
   builder.set("--width-by-mass", "red.width", "by-mass");
   builder.set("--digits", "digits", "3");
-  EXPECT_EQ(builder.build_scene().system.red.width, Rational(5, 4));
+  EXPECT_EQ(builder.build_scene().system.bodies[1].size, Rational(5, 4));
   builder.set("test", "red.width", "2");
-  EXPECT_EQ(builder.build_scene().system.red.width, 2);
+  EXPECT_EQ(builder.build_scene().system.bodies[1].size, 2);
   builder.set("test", "blue.width", "by-mass");
   EXPECT_THROW(builder.build_scene(), SceneError) << "red alone is wide by its mass";
 }

@@ -89,11 +89,9 @@ TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
 }
 
 Rational width_of(const Rational& ratio) {
-  BlockSystem system;
-  system.blue.mass = Rational(3, 7);
-  system.blue.width = 2;
-  system.red.mass = system.blue.mass * ratio;
-  return width_by_mass(system) / 2;
+  const Body blue{.mass = Rational(3, 7), .size = 2};
+  const Body red{.mass = *blue.mass * ratio};
+  return width_by_mass(blue, red) / 2;
 }
 
 TEST(WidthByMass, IsAnEighthMoreForEveryHundred) {

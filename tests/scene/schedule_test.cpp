@@ -178,7 +178,7 @@ TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
     const Schedule schedule = make_schedule(scene, *log);
     expect_no_gaps(schedule);
     // At the turn, where the video stands in the middle of its slowest stretches.
-    const Rational turn = *turn_of(scene.system);
+    const Rational turn = *turn_of(two_blocks_of(scene.system)->blocks);
     const auto stretches = schedule.stretches();
     const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slowdown);
     const Rational turn_s = slowest->video_s + (turn - slowest->time) / slowest->speed;
@@ -195,7 +195,7 @@ TEST(Schedule, AutomaticWindowsDoNotDependOnUnits) {
   const Schedule usual = schedule_of(settings);
   for (const char* velocity : {"1e-200", "1e200"}) {
     Scene scene = paced_scene(settings);
-    scene.system.red.velocity *= parse_rational(velocity);
+    scene.system.bodies[1].velocity[0] *= parse_rational(velocity);
     scene.time.speed /= parse_rational(velocity);
     const Schedule schedule = schedule_of(scene);
     EXPECT_EQ(schedule.stretches().size(), usual.stretches().size()) << velocity;
@@ -213,7 +213,7 @@ TEST(Schedule, AutomaticWindowsStopWhereNothingMovesAnyMore) {
 TEST(Schedule, AutomaticWindowsAreAlsoAroundATurnBeforeTimeZero) {
   Scene scene = paced_scene(
       {{"time.from", "-20"}, {"time.to", "1"}, {"time.ease", "0"}, {"time.slow-motion", "auto"}});
-  scene.system.red.velocity = 1;
+  scene.system.bodies[1].velocity[0] = 1;
   const Schedule schedule = schedule_of(scene);
   EXPECT_EQ(schedule.stretches().size(), 7 + kStand);
   expect_no_gaps(schedule);
@@ -387,7 +387,7 @@ TEST(Schedule, KnowsWhenAnInstantIsFirstShown) {
 TEST(Schedule, RefusesWhatCannotBe) {
   const auto problem = [](const std::vector<Setting>& settings, Rational red_velocity = -1) {
     Scene scene = paced_scene(settings);
-    scene.system.red.velocity = std::move(red_velocity);
+    scene.system.bodies[1].velocity[0] = std::move(red_velocity);
     try {
       schedule_of(scene);
     } catch (const UsageError& error) {

@@ -19,13 +19,13 @@ const Scene& only_run(const Segment& part) { return std::get<Scenes>(part.conten
 TEST_F(StoryboardFileTest, AFileWithoutPartsIsAScene) {
   const Script read = script("digits = 2\n[time]\nspeed = 3\n");
   const Scene& scene = std::get<Scene>(read);
-  EXPECT_EQ(scene.system.red.mass, 100);
+  EXPECT_EQ(scene.system.bodies[1].mass.value(), 100);
   EXPECT_EQ(scene.time.speed, 3);
 }
 
 TEST_F(StoryboardFileTest, DigitsAndMassRatioSetTheMassOfRed) {
   const auto red_mass = [&](const std::string& text) {
-    return std::get<Scene>(script(text)).system.red.mass;
+    return std::get<Scene>(script(text)).system.bodies[1].mass.value();
   };
   EXPECT_EQ(red_mass("digits = 1"), 1);
   EXPECT_EQ(red_mass("digits = \"4\"\nblue.mass = 3"), 3'000'000);
@@ -77,14 +77,15 @@ TEST_F(StoryboardFileTest, KeysAboveHoldForAllParts) {
   EXPECT_EQ(read.view.theme, Theme::dark);
   EXPECT_EQ(read.golden.frames, std::vector<std::string>{"1.5"});
   ASSERT_EQ(read.segments.size(), 3U);
-  EXPECT_EQ(only_run(read.segments[0]).system.red.mass, 100);
+  EXPECT_EQ(only_run(read.segments[0]).system.bodies[1].mass.value(), 100);
   EXPECT_EQ(only_run(read.segments[0]).time.speed, 2);
   EXPECT_EQ(read.segments[0].fade_s, 0);
-  EXPECT_EQ(only_run(read.segments[1]).system.red.mass, 10000);
+  EXPECT_EQ(only_run(read.segments[1]).system.bodies[1].mass.value(), 10000);
   EXPECT_EQ(only_run(read.segments[1]).pacing.duration_s, 6);
   EXPECT_EQ(only_run(read.segments[1]).show.title, "three");
   EXPECT_EQ(read.segments[1].fade_s, Rational(1, 3));
-  EXPECT_EQ(only_run(read.segments[2]).system.red.mass, 7) << "the part's key wins over the film's";
+  EXPECT_EQ(only_run(read.segments[2]).system.bodies[1].mass.value(), 7)
+      << "the part's key wins over the film's";
   EXPECT_EQ(only_run(read.segments[2]).time.speed, 5);
   EXPECT_EQ(only_run(read.segments[2]).show.title, "");
   EXPECT_EQ(read.segments[2].origin, path_ + ":17");
@@ -113,11 +114,11 @@ TEST_F(StoryboardFileTest, WhatAPartSaysHoldsForAllItCompares) {
   )");
   const Scenes& runs = std::get<Scenes>(read.segments.at(0).content);
   ASSERT_EQ(runs.size(), 2U);
-  EXPECT_EQ(runs[0].system.red.mass, 16);
-  EXPECT_EQ(runs[0].system.red.position, 6);
+  EXPECT_EQ(runs[0].system.bodies[1].mass.value(), 16);
+  EXPECT_EQ(runs[0].system.bodies[1].position[0], 6);
   EXPECT_EQ(runs[0].show.title, "16");
-  EXPECT_EQ(runs[1].system.red.mass, 100);
-  EXPECT_EQ(runs[1].system.red.position, 7);
+  EXPECT_EQ(runs[1].system.bodies[1].mass.value(), 100);
+  EXPECT_EQ(runs[1].system.bodies[1].position[0], 7);
   EXPECT_EQ(runs[1].pacing.duration_s, 4);
 }
 

@@ -37,7 +37,7 @@ TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
     ClickTrain all(size);
     const auto stream = log->stream(1, log->last());
     CollisionBatch batch;
-    const double r = to_double(1 / article_system(digits).red.mass);
+    const double r = to_double(1 / article_blocks(digits).red.mass);
     while (stream->read(batch)) {
       for (std::size_t i = 0; i < batch.size; ++i) {
         const double u1 = batch.blue_velocity[i];

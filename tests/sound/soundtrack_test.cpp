@@ -83,7 +83,7 @@ TEST(Soundtrack, BeginsEachClackAtItsCollision) {
 
 TEST(Soundtrack, IsSilentWithoutACollision) {
   Scene scene = article(3);
-  scene.system.red.velocity = 1;
+  scene.system.bodies[1].velocity[0] = 1;
   const Track track = track_of(scene, {{0, 0, 1}}, 3);
   EXPECT_EQ(track.left, std::vector<double>(3 * 48000, 0.0));
   // And before the first one, and while the film stands still.
@@ -169,14 +169,14 @@ TEST(Soundtrack, RefusesStretchesThatAreNotInOrder) {
 
 TEST(Soundtrack, TakesScenesAtTheLimits) {
   Scene corner = article(20);
-  corner.system.blue.position = Rational(1, 2);
+  corner.system.bodies[0].position[0] = Rational(1, 2);
   Scene light = article(1);
-  light.system.red.mass = Rational(1, 1000000);
+  light.system.bodies[1].mass = Rational(1, 1000000);
   Scene huge = article(1);
-  huge.system.red.mass = power(2, 1999);
+  huge.system.bodies[1].mass = power(2, 1999);
   Scene heavy = article(3);
-  heavy.system.blue.mass = power(10, 400);
-  heavy.system.red.mass = power(10, 404);
+  heavy.system.bodies[0].mass = power(10, 400);
+  heavy.system.bodies[1].mass = power(10, 404);
   for (const Scene& scene : {corner, light, huge, heavy}) {
     const Track track = track_of(scene, {{0, 0, 1}}, 6);
     EXPECT_TRUE(std::ranges::all_of(track.left, [](double x) { return std::fabs(x) <= 1; }));

@@ -103,7 +103,7 @@ BlockSystem random_system_of_any_size(Random& random) {
     choose_masses(random, system);
     choose_places(random, unit(), system);
     choose_velocities(random, unit(), system);
-  } while (!problems_of(system).empty());  // a width may have underflowed to zero
+  } while (!problems_of(system_of(system)).empty());  // a width may have underflowed to zero
   return system;
 }
 

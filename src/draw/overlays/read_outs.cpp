@@ -158,7 +158,7 @@ bool has_names(const DrawingContext& context) { return context.pair() != nullptr
 
 /// The energy of each body that has a name, and the sum of all. Elastic collisions keep the sum.
 ReadOut energy_read_out(const DrawingContext& context, int digits) {
-  const BodySystem& system = context.bodies.system;
+  const BodySystem& system = context.scene.system;
   const Rational exact_sum = twice_energy(system) / 2;
   if (!has_names(context)) {
     std::string text = fmt::format("Energy {}", short_text(exact_sum));
@@ -194,7 +194,7 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
 class Momenta {
  public:
   Momenta(const DrawingContext& context, int digits)
-      : system_(context.bodies.system),
+      : system_(context.scene.system),
         // The heaviest body has the most momentum when it has all the energy.
         most_squared_(twice_energy(system_) * heaviest(system_)),
         scale_(root_magnitude_of(most_squared_), digits),

@@ -32,7 +32,7 @@ struct RulerRange {
 
 RulerRange range_of(const DrawingContext& context, bool are_figures_below_walls) {
   const View& view = context.scene.view;
-  const LineWalls walls = line_walls(context.bodies.system);
+  const LineWalls walls = line_walls(context.scene.system);
   const double beside_px = kBesideWall_em * context.sizes.text;
   RulerRange range{to_double(view.x.low), to_double(view.x.high), 0, double(view.width_px)};
   const auto foot_px = [&](const Rational& face) {

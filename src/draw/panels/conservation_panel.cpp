@@ -78,17 +78,17 @@ class ConservationPanel {
   ConservationPanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of(context)),
         colors_(context.colors),
-        momenta_(context.bodies.system),
+        momenta_(context.scene.system),
         face_(context.font.face() == Face::article ? Face::article : Face::digits),
         widths_(context.fonts.of(face_), "0123456789.,−% ") {
-    const Rational energy = twice_energy(context.bodies.system);
-    for (const Body& body : context.bodies.system.bodies) {
+    const Rational energy = twice_energy(context.scene.system);
+    for (const Body& body : context.scene.system.bodies) {
       const bool has_part = energy > 0 && body.mass;
       energy_factors_.push_back(has_part ? root_of(*body.mass / energy) : mpf_class(0));
     }
     moves_ = energy > 0;
     make_rows(context);
-    find_range(context.bodies.system);
+    find_range(context.scene.system);
     place_rows();
     place_columns(context);
     add_still();
@@ -129,11 +129,11 @@ class ConservationPanel {
   /// From the last block to the first, walls, and the sum.
   void make_rows(const DrawingContext& context) {
     const Palette& palette = context.palette;
-    const BodySystem& system = context.bodies.system;
+    const BodySystem& system = context.scene.system;
     const bool is_pair = context.pair() != nullptr;
     for (std::size_t i = system.bodies.size(); i-- > 0;) {
       if (!system.bodies[i].mass) continue;
-      std::string name = context.bodies.styles[i].label;
+      std::string name = context.scene.styles[i].label;
       if (name.empty()) name = is_pair ? colors_[i].name : fmt::format("{}", i + 1);
       rows_.push_back({std::move(name), colors_[i].fill, colors_[i].label, {i}});
     }

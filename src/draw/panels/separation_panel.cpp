@@ -64,7 +64,7 @@ class SeparationPanel {
       : meeting_(first_meeting(context.log, span_of(context.scene, context.log))),
         diagram_(context, place, titles(context)),
         axis_(context, diagram_, 0) {
-    const BodySystem& system = context.bodies.system;
+    const BodySystem& system = context.scene.system;
     const double reach =
         to_double(system.bodies[meeting_.first].size + system.bodies[meeting_.second].size);
     contact_ = reach * reach;

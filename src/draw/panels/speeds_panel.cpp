@@ -86,7 +86,7 @@ std::size_t movable(const BodySystem& system) {
 class SpeedsPanel {
  public:
   SpeedsPanel(const DrawingContext& context, const PanelPlace& place)
-      : system_(context.bodies.system),
+      : system_(context.scene.system),
         diagram_(context, place, titles(context)),
         maxwell_(system_, energy_of(system_)),
         plot_(diagram_.inside()),
@@ -125,7 +125,7 @@ class SpeedsPanel {
 
  private:
   static std::vector<Formula> titles(const DrawingContext& context) {
-    const BodySystem& system = context.bodies.system;
+    const BodySystem& system = context.scene.system;
     if (movable(system) < kLeastBodies || energy_of(system) <= 0) {
       throw UsageError(fmt::format(
           "show.panels: 'speeds' needs at least {} bodies of finite mass, and one that moves",

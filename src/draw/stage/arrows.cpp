@@ -129,7 +129,7 @@ class BlockArrows {
         line_px_(context.sizes.data_line),
         short_side_(context.sizes.short_side),
         text_px_(context.sizes.text) {
-    const std::vector<Body>& bodies = context.bodies.system.bodies;
+    const std::vector<Body>& bodies = context.scene.system.bodies;
     Rational most = 0;
     for (std::size_t i = bodies.size(); i-- > 0;) {
       if (!bodies[i].mass) continue;
@@ -137,7 +137,7 @@ class BlockArrows {
       most = std::max(most, *bodies[i].mass);
     }
     // The heaviest block's speed when it has all the energy. It may be below the range of a double.
-    if (most > 0) usual_speed_ = root_of(twice_energy(context.bodies.system) / most);
+    if (most > 0) usual_speed_ = root_of(twice_energy(context.scene.system) / most);
     place_foot(context);
     place_figures(context);
     find_longest(context);
@@ -183,7 +183,7 @@ class BlockArrows {
   }
 
   void place_figures(const DrawingContext& context) {
-    const LineWalls walls = line_walls(context.bodies.system);
+    const LineWalls walls = line_walls(context.scene.system);
     const double margin = context.sizes.margin;
     const double beside_wall = kBetweenFigures_em / 2 * text_px_;
     room_ = {margin, std::min(context.scene.view.width_px - margin, layout_.content_right_px),
@@ -205,7 +205,7 @@ class BlockArrows {
   }
 
   void find_longest(const DrawingContext& context) {
-    const std::vector<std::size_t> order = from_left_to_right(context.bodies.system);
+    const std::vector<std::size_t> order = from_left_to_right(context.scene.system);
     double narrowest = layout_.shapes[order.front()].width * 2;
     for (std::size_t i = 1; i < order.size(); ++i) {
       const double widths = layout_.shapes[order[i - 1]].width + layout_.shapes[order[i]].width;
@@ -269,10 +269,10 @@ class DiscArrows {
         line_px_(context.sizes.data_line),
         head_px_(kHead * context.sizes.short_side) {
     Rational mass = 0;
-    for (const Body& body : context.bodies.system.bodies) {
+    for (const Body& body : context.scene.system.bodies) {
       if (body.mass) mass += *body.mass;
     }
-    const Rational energy = twice_energy(context.bodies.system);
+    const Rational energy = twice_energy(context.scene.system);
     if (energy == 0) return;
     const mpf_class usual_speed = root_of(energy / mass);
     px_per_speed_ = mpf_class(kDiscArrow * context.sizes.short_side / usual_speed).get_d();

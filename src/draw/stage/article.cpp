@@ -65,7 +65,7 @@ class ArticleStage {
   std::vector<DrawItem> walls_of(const DrawingContext& context) const {
     const Range& y = context.scene.view.y;
     const double height = length(y);
-    const LineWalls walls = line_walls(context.bodies.system);
+    const LineWalls walls = line_walls(context.scene.system);
     std::vector<DrawItem> items;
     const auto add = [&](double left) {
       const Point corner = layout_.at(left, to_double(y.low) + height);
@@ -156,7 +156,7 @@ Layout article_layout(const DrawingContext& context, const CountLine& count_line
 
   // The largest block's middle is at 0, and its sides are equal.
   double largest = 0;
-  for (const Body& body : context.bodies.system.bodies) {
+  for (const Body& body : context.scene.system.bodies) {
     const double side = to_double(body.size);
     layout.shapes.push_back({side, side * layout.scale});
     largest = std::max(largest, side);

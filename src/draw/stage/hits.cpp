@@ -171,11 +171,11 @@ class LineMarks {
   explicit LineMarks(const DrawingContext& context)
       : layout_(context.layout),
         colors_(context.colors),
-        walls_(context.bodies.system.walls),
-        order_(from_left_to_right(context.bodies.system)) {
-    for (const Body& body : context.bodies.system.bodies) is_fixed_.push_back(!body.mass);
+        walls_(context.scene.system.walls),
+        order_(from_left_to_right(context.scene.system)) {
+    for (const Body& body : context.scene.system.bodies) is_fixed_.push_back(!body.mass);
     marks_.emplace(context, most_reach_px(labelled_above(context, layout_)),
-                   narrowest_px(line_walls(context.bodies.system)) / 2);
+                   narrowest_px(line_walls(context.scene.system)) / 2);
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {

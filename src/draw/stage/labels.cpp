@@ -32,9 +32,9 @@ struct LabelText {
 };
 
 LabelText text_of(const DrawingContext& context, std::size_t body) {
-  const std::string& label = context.bodies.styles[body].label;
+  const std::string& label = context.scene.styles[body].label;
   if (!label.empty()) return {label, false};
-  const auto& mass = context.bodies.system.bodies[body].mass;
+  const auto& mass = context.scene.system.bodies[body].mass;
   if (!mass || !context.scene.show.has(Overlay::masses)) return {};
   return {short_text(*mass), true};
 }
@@ -44,7 +44,7 @@ class BlockTexts {
  public:
   BlockTexts(const DrawingContext& context, const Layout& layout)
       : font_(context.font), layout_(layout), size_px_(context.sizes.mass) {
-    const std::vector<Body>& bodies = context.bodies.system.bodies;
+    const std::vector<Body>& bodies = context.scene.system.bodies;
     for (std::size_t i = 0; i < bodies.size(); ++i) texts_.push_back(text_of(context, i));
     find_peaks(context);
     add_units();
@@ -65,8 +65,8 @@ class BlockTexts {
   }
 
   void find_peaks(const DrawingContext& context) {
-    const std::vector<Body>& bodies = context.bodies.system.bodies;
-    const std::vector<std::size_t> order = from_left_to_right(context.bodies.system);
+    const std::vector<Body>& bodies = context.scene.system.bodies;
+    const std::vector<std::size_t> order = from_left_to_right(context.scene.system);
     is_peak_.assign(bodies.size(), true);
     // What no collision moves is the heaviest; of equal ones it is the later one.
     const auto is_heavier = [&](std::size_t a, std::size_t b) {
@@ -286,7 +286,7 @@ double label_room_px(const Sizes& sizes) {
 
 bool has_labels(const DrawingContext& context) {
   return context.scene.show.has(Overlay::masses) ||
-         std::ranges::any_of(context.bodies.styles,
+         std::ranges::any_of(context.scene.styles,
                              [](const BodyStyle& style) { return !style.label.empty(); });
 }
 

@@ -103,7 +103,7 @@ void fit_heights(double room_px, const View& view, Layout& layout) {
 Layout lay_out_line(const DrawingContext& context, const Rectangle& area, bool is_floor_at_bottom) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
-  const Axis axis(context.bodies.system, view, area);
+  const Axis axis(context.scene.system, view, area);
   Layout layout;
   const bool is_whole = area.width >= view.width_px;
   layout.content_right_px = area.x + area.width - sizes.margin;
@@ -113,7 +113,7 @@ Layout lay_out_line(const DrawingContext& context, const Rectangle& area, bool i
   check_resolution(view, layout.scale);
 
   const double below = sizes.wall_line + room_below_px(context.scene);
-  set_blocks(context.bodies.system, layout);
+  set_blocks(context.scene.system, layout);
   double above = 0;
   double room = 0;
   do {
@@ -145,7 +145,7 @@ void check_plane(const View& view, double scale) {
 Layout lay_out_plane(const DrawingContext& context, const Rectangle& area) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
-  const BodySystem& system = context.bodies.system;
+  const BodySystem& system = context.scene.system;
   Layout layout;
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
   layout.window = {std::ceil(area.x), std::ceil(area.y), std::floor(area.width - 1),
@@ -175,7 +175,7 @@ Layout lay_out_plane(const DrawingContext& context, const Rectangle& area) {
 }
 
 void check_number(const DrawingContext& context) {
-  const std::size_t count = context.bodies.system.bodies.size();
+  const std::size_t count = context.scene.system.bodies.size();
   const bool is_marked = context.scene.show.has(Overlay::velocities) || has_labels(context);
   const std::size_t most = is_marked ? kMostMarked : kMostDrawn;
   if (count <= most) return;
@@ -214,7 +214,7 @@ double reach_px(const DrawingContext& context) {
   // Red comes nearer and nearer, and then goes farther and farther away.
   const double farthest =
       std::max(log->blocks_at(span.from).red.position, log->blocks_at(span.to).red.position);
-  const Axis axis(context.bodies.system, scene.view, whole(scene.view));
+  const Axis axis(context.scene.system, scene.view, whole(scene.view));
   const double right = farthest + to_double(log->blocks().red.width) / 2;
   return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
 }

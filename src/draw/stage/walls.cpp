@@ -79,7 +79,7 @@ WallPart part_of(const Wall& wall, const std::vector<Wall>& walls, const View& v
 }
 
 std::vector<DrawItem> walls_of_plane(const DrawingContext& context) {
-  const std::vector<Wall>& walls = context.bodies.system.walls;
+  const std::vector<Wall>& walls = context.scene.system.walls;
   std::vector<DrawItem> items;
   for (const Wall& wall : walls) {
     const WallPart part = part_of(wall, walls, context.scene.view);
@@ -102,8 +102,8 @@ std::vector<DrawItem> walls_of_line(const DrawingContext& context) {
   const View& view = context.scene.view;
   const double line = context.sizes.wall_line;
   const double top = layout.top_px() - kWallAbove * context.sizes.short_side;
-  const LineWalls all = line_walls(context.bodies.system);
-  const LineWalls seen = seen_walls(context.bodies.system, view);
+  const LineWalls all = line_walls(context.scene.system);
+  const LineWalls seen = seen_walls(context.scene.system, view);
   double left = all.right && !all.left ? context.sizes.margin : 0;
   double right = all.left ? layout.content_right_px : layout.visible_right_px;
   std::vector<DrawItem> items;

@@ -71,7 +71,7 @@ std::vector<std::string> key_names() {
 std::string count_of(const BoundScript& bound) {
   const WithoutGil released;
   const Scene& scene = scene_of(bound, "count");
-  if (!scene.bodies) return hexadecimal(count_collisions(scene.system));
+  if (two_blocks_of(scene.system)) return hexadecimal(count_collisions(scene.system));
   const std::unique_ptr<Log> log = log_of(scene);
   const Integer count = log->last();
   require_certain(scene, *log, log->horizon());
@@ -156,7 +156,7 @@ void bind_script(py::module_& module) {
       .def_property_readonly("has_bodies",
                              [](const BoundScript& bound) {
                                const auto* const scene = std::get_if<Scene>(&bound.script);
-                               return scene != nullptr && scene->bodies.has_value();
+                               return scene != nullptr && !has_short_names(*scene);
                              })
       .def_property_readonly("is_transparent",
                              [](const BoundScript& bound) {

@@ -38,7 +38,7 @@ struct Match {
 };
 
 void run_pair(const Method& program, Match& match) {
-  const BlockSystem system = article_system(match.digits);
+  const BlockSystem system = article_blocks(match.digits);
   const Timed one = timed_log(program, system);
   const Timed other = timed_log(*match.loop, system);
   match.events = one.events;

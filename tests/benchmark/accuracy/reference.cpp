@@ -60,7 +60,7 @@ void check_with_oracle(const BlockSystem& system, const LoggedEvent& event) {
 ReferenceRun reference_run(int digits) {
   ReferenceRun run;
   run.digits = digits;
-  run.system = article_system(digits);
+  run.system = article_blocks(digits);
   run.count = oracle::high_precision_total(run.system).get_si();
   run.indices = selected_indices(digits, run.count);
   const OneSided<Reference> formula(run.system);

@@ -13,7 +13,7 @@ namespace piblocks::benchmark {
 namespace {
 
 BlockSystem inelastic_article(int digits) {
-  BlockSystem system = article_system(digits);
+  BlockSystem system = article_blocks(digits);
   system.blocks_restitution = Rational(999'999, 1'000'000);
   system.wall_restitution = system.blocks_restitution;
   return system;
