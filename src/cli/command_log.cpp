@@ -176,7 +176,7 @@ void log_bodies(const Scene& scene, const Command& options) {
 void run_log(const Command& options, const SceneOptions& scene_options) {
   scene_options.check_output();
   const Scene scene = scene_options.scene();
-  if (!has_short_names(scene)) return log_bodies(scene, options);
+  if (!has_short_names(scene.system)) return log_bodies(scene, options);
   const LogFormat format = parse_log_format(format_name(options));
   if (format.contents == Contents::bytes) refuse_terminal(options);
   const auto log = make_log(scene.system, options);

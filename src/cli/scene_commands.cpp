@@ -69,7 +69,7 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
 void run_state(const Command& options, const SceneOptions& scene_options) {
   const std::vector<Instant> instants = *options.value("--at", parse_instants);
   const Scene scene = scene_options.scene();
-  if (!has_short_names(scene)) return write_bodies(scene, instants, options);
+  if (!has_short_names(scene.system)) return write_bodies(scene, instants, options);
   const auto log = make_log(scene.system, options);
   const std::optional<Integer> infinite = infinite_count(*log);
   TextOutput out("-");

@@ -47,7 +47,7 @@ std::string listed_collisions(const Log& log, const char* mark) {
 }
 
 void require_blocks(const Scene& scene, const char* what) {
-  if (has_short_names(scene)) return;
+  if (has_short_names(scene.system)) return;
   throw UsageError(fmt::format(
       "{}: needs two blocks and a fixed wall; leave it out, or leave out [[body]] and wall.mass",
       what));

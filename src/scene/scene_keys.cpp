@@ -142,7 +142,7 @@ template <auto PartOf>
 constexpr SceneKey short_key(const char* name) {
   return {name, [](Scene& scene, const Values& values) { read(PartOf(scene.system), values); },
           [](const Scene& scene) {
-            return has_short_names(scene) ? texts_of(PartOf(scene.system)) : Values();
+            return has_short_names(scene.system) ? texts_of(PartOf(scene.system)) : Values();
           }};
 }
 template <std::size_t Index, auto Member>
@@ -255,7 +255,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
   for (const SceneKey& key : scene_keys()) {
     values.emplace_back(key.name, fmt::format("{}", fmt::join(key.get(scene), ", ")));
   }
-  if (!has_short_names(scene))
+  if (!has_short_names(scene.system))
     std::ranges::move(describe_bodies(scene), std::back_inserter(values));
   return values;
 }

@@ -111,7 +111,7 @@ void add_bodies(const Scene& scene, std::vector<std::string>& entries) {
 /// A list of scene keys that differ from the default, one "key = value" each.
 std::vector<std::string> entries_of(const Scene& scene, const KeyFilter& is_wanted) {
   Scene usual;
-  const bool has_bodies = !has_short_names(scene);
+  const bool has_bodies = !has_short_names(scene.system);
   if (has_bodies) show_all(scene.system, usual.view);
   // The lecture themes have another default.
   const bool has_other_shutter = is_lecture(scene.view.theme);

@@ -120,7 +120,7 @@ std::string scene_json(const Scene& scene, const FilmRun& run) {
   return fmt::format(R"("hasTurn":{},"digits":{},"massRatio":{},"bodies":{},"notes":{})",
                      turn_of(run.log()).has_value(), digits ? fmt::format("{}", *digits) : "null",
                      json_text(ratio.get_str()),
-                     has_short_names(scene) ? "null" : bodies_json(scene),
+                     has_short_names(scene.system) ? "null" : bodies_json(scene),
                      json_texts(notes_of(scene, run)));
 }
 

@@ -165,7 +165,7 @@ std::optional<std::string> LiveScript::state(const Place& place) const {
   if (run() == nullptr) return std::nullopt;
   const Rational time = time_of(place.instant, run()->log());
   const Log& log = run()->log();
-  if (!has_short_names(run()->scene()))
+  if (!has_short_names(run()->scene().system))
     return cli::state_text(log.system(), time, log.state_at(time));
   return cli::state_text(time, log.pair()->blocks_at(time), cli::infinite_count(log));
 }

@@ -122,8 +122,8 @@ TEST_F(BodiesFile, AWallOfFiniteMassIsABlock) {
   EXPECT_EQ(bodies[2].position[0] + bodies[2].size / 2, Rational(-1, 4)) << "its face";
   EXPECT_EQ(bodies[2].velocity[0], 0);
   EXPECT_EQ(scene.styles[2].label, "wall");
-  EXPECT_TRUE(has_short_names(load("[wall]\nmass = 'inf'\n")));
-  EXPECT_TRUE(has_short_names(load("[wall]\nmass = inf\nface = -1\n")));
+  EXPECT_TRUE(has_short_names(load("[wall]\nmass = 'inf'\n").system));
+  EXPECT_TRUE(has_short_names(load("[wall]\nmass = inf\nface = -1\n").system));
 }
 
 TEST_F(BodiesFile, TheViewShowsEverything) {
@@ -228,8 +228,8 @@ TEST_F(BodiesFile, PartsOfAStoryboardMayHaveBodies) {
   const auto scenes = [&](std::size_t part) -> const Scenes& {
     return std::get<Scenes>(story.segments.at(part).content);
   };
-  EXPECT_TRUE(has_short_names(scenes(0).front())) << "those of a later part";
-  ASSERT_FALSE(has_short_names(scenes(1).front()));
+  EXPECT_TRUE(has_short_names(scenes(0).front().system)) << "those of a later part";
+  ASSERT_FALSE(has_short_names(scenes(1).front().system));
   EXPECT_EQ(scenes(1).front().system.bodies.size(), 2U);
   ASSERT_EQ(scenes(2).size(), 3U);
   EXPECT_EQ(scenes(2)[0].system.bodies[1].mass, Rational(1));

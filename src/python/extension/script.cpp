@@ -156,7 +156,7 @@ void bind_script(py::module_& module) {
       .def_property_readonly("has_bodies",
                              [](const BoundScript& bound) {
                                const auto* const scene = std::get_if<Scene>(&bound.script);
-                               return scene != nullptr && !has_short_names(*scene);
+                               return scene != nullptr && !has_short_names(scene->system);
                              })
       .def_property_readonly("is_transparent",
                              [](const BoundScript& bound) {
