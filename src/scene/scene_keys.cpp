@@ -137,18 +137,29 @@ void read(std::optional<Rational>& target, const Values& values) {
 void read(ExactVector& target, const Values& values) { read(target[0], values); }
 Values texts_of(const ExactVector& value) { return texts_of(value[0]); }
 
-/// A key of what is there with short names alone: a part of the system.
-template <auto PartOf>
+struct WallFace {
+  auto& operator()(auto& system) const { return system.walls[0].point; }
+};
+template <std::size_t Index, auto Member>
+struct BodyValue {
+  auto& operator()(auto& system) const { return system.bodies[Index].*Member; }
+};
+
+/// A key of a part of the system that only short names have.
+template <typename PartOf>
 constexpr SceneKey short_key(const char* name) {
-  return {name, [](Scene& scene, const Values& values) { read(PartOf(scene.system), values); },
+  return {name, [](Scene& scene, const Values& values) { read(PartOf()(scene.system), values); },
           [](const Scene& scene) {
-            return has_short_names(scene.system) ? texts_of(PartOf(scene.system)) : Values();
+            return has_short_names(scene.system) ? texts_of(PartOf()(scene.system)) : Values();
           }};
 }
-template <std::size_t Index, auto Member>
-constexpr SceneKey body_key(const char* name) {
-  return short_key < [](auto& system) -> auto& { return system.bodies[Index].*Member; }
-  > (name);
+template <auto Member>
+constexpr SceneKey blue_key(const char* name) {
+  return short_key<BodyValue<0, Member>>(name);
+}
+template <auto Member>
+constexpr SceneKey red_key(const char* name) {
+  return short_key<BodyValue<1, Member>>(name);
 }
 
 void set_size(Scene& scene, const Values& values) {
@@ -192,21 +203,27 @@ Values base_of(const Scene& scene) { return {fmt::format("{}", scene.show.base)}
 
 constexpr auto kKeys = std::to_array<SceneKey>({
     SceneKey{"base", set_base, base_of},
-    short_key<[](auto& system) -> auto& { return system.walls[0].point;
-}  // namespace
-> ("wall.face"), body_key<0, &Body::mass>("blue.mass"),
-    body_key<0, &Body::position>("blue.position"), body_key<0, &Body::velocity>("blue.velocity"),
-    body_key<0, &Body::size>("blue.width"), body_key<1, &Body::mass>("red.mass"),
-    body_key<1, &Body::position>("red.position"), body_key<1, &Body::velocity>("red.velocity"),
-    body_key<1, &Body::size>("red.width"),
+    short_key<WallFace>("wall.face"),
+    blue_key<&Body::mass>("blue.mass"),
+    blue_key<&Body::position>("blue.position"),
+    blue_key<&Body::velocity>("blue.velocity"),
+    blue_key<&Body::size>("blue.width"),
+    red_key<&Body::mass>("red.mass"),
+    red_key<&Body::position>("red.position"),
+    red_key<&Body::velocity>("red.velocity"),
+    red_key<&Body::size>("red.width"),
     key<&Scene::system, &BodySystem::restitution>("blocks.restitution"),
     key<&Scene::system, &BodySystem::wall_restitution>("wall.restitution"),
-    key<&Scene::view, &View::x>("view.x"), key<&Scene::view, &View::y>("view.y"),
-    SceneKey{"view.size", set_size, size_of}, key<&Scene::view, &View::frame_rate>("view.fps"),
+    key<&Scene::view, &View::x>("view.x"),
+    key<&Scene::view, &View::y>("view.y"),
+    SceneKey{"view.size", set_size, size_of},
+    key<&Scene::view, &View::frame_rate>("view.fps"),
     key<&Scene::view, &View::shutter>("view.shutter"),
     key<&Scene::view, &View::background>("view.background"),
-    key<&Scene::view, &View::theme>("view.theme"), key<&Scene::time, &TimeSpan::from>("time.from"),
-    key<&Scene::time, &TimeSpan::to>("time.to"), SceneKey{"time.speed", set_speed, speed_of},
+    key<&Scene::view, &View::theme>("view.theme"),
+    key<&Scene::time, &TimeSpan::from>("time.from"),
+    key<&Scene::time, &TimeSpan::to>("time.to"),
+    SceneKey{"time.speed", set_speed, speed_of},
     SceneKey{"time.duration", set_duration, duration_of},
     key<&Scene::time, &TimeSpan::allow_uncertain>("time.allow-uncertain"),
     SceneKey{"time.slow-motion", set_slow_motion, slow_motion_of},
@@ -214,15 +231,18 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     key<&Scene::pacing, &Pacing::freezes>("time.freeze"),
     key<&Scene::pacing, &Pacing::hold_start_s>("time.hold-start"),
     key<&Scene::pacing, &Pacing::hold_end_s>("time.hold-end"),
-    key<&Scene::pacing, &Pacing::loop>("time.loop"), key<&Scene::sound, &Sound::on>("sound.on"),
+    key<&Scene::pacing, &Pacing::loop>("time.loop"),
+    key<&Scene::sound, &Sound::on>("sound.on"),
     key<&Scene::show, &Show::overlays>("show.overlays"),
-    key<&Scene::show, &Show::panels>("show.panels"), key<&Scene::show, &Show::title>("show.title"),
-    key<&Scene::show, &Show::caption>("show.caption"), key<&Scene::show, &Show::logo>("show.logo"),
-    key<&Scene::show, &Show::hits>("show.hits"), key<&Scene::show, &Show::loupe>("show.loupe"),
+    key<&Scene::show, &Show::panels>("show.panels"),
+    key<&Scene::show, &Show::title>("show.title"),
+    key<&Scene::show, &Show::caption>("show.caption"),
+    key<&Scene::show, &Show::logo>("show.logo"),
+    key<&Scene::show, &Show::hits>("show.hits"),
+    key<&Scene::show, &Show::loupe>("show.loupe"),
     key<&Scene::golden, &Golden::frames>("golden.frames"),
     key<&Scene::golden, &Golden::size>("golden.size"),
-}  // namespace piblocks
-);
+});
 
 }  // namespace
 
