@@ -178,9 +178,10 @@ void check_fits(const Scene& scene, SceneProblems& problems) {
                    scene.time.from.offset);
 }
 
-/// What pictures say of elastic collisions alone.
+/// What pictures say of elastic collisions alone. Where no restitution is possible, the system's
+/// problem is the only one.
 void check_elastic(const Scene& scene, SceneProblems& problems) {
-  if (is_elastic(scene.system)) return;
+  if (is_elastic(scene.system) || !two_blocks_of(scene.system)) return;
   constexpr const char* kReason =
       "has '{}', which needs elastic collisions; leave it out, or leave out the restitution";
   for (const Panel panel : scene.show.panels) {

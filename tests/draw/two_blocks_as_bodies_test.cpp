@@ -68,5 +68,21 @@ TEST(TwoBlocksAsBodies, ArePaintedAsTwoBlocks) {
   }
 }
 
+TEST(TwoBlocksAsBodies, LoseEnergyAsTwoBlocks) {
+  for (const char* restitution : {"0.99", "0.5"}) {  // a run that ends, and one that does not
+    SCOPED_TRACE(restitution);
+    const Scene scene = scene_with(2, {{"view.theme", "article"},
+                                       {"show.panels", "time"},
+                                       {"show.overlays", "time,energy"},
+                                       {"restitution", restitution}});
+    for (const Instant& at : {Instant(Rational(0)), Instant::turn(), Instant::last()}) {
+      const DrawList picture = still_picture(scene, at);
+      EXPECT_TRUE(still_picture(as_bodies(scene), at) == picture);
+      EXPECT_FALSE(diagrams_of(picture).empty());
+      EXPECT_TRUE(diagrams_of(still_picture(turned_round(scene), at)) == diagrams_of(picture));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace piblocks

@@ -157,8 +157,8 @@ TEST_F(BodiesFile, AWallThatRecoilsIsChecked) {
     EXPECT_NE(found.front().find("must be greater than 0"), std::string::npos) << found.front();
   }
   expect_problem(wall + "restitution = 0.5\n",
-                 "2: wall.mass: a wall that recoils is elastic; leave out the restitution, or the "
-                 "mass");
+                 "3: wall.restitution is less than 1, which needs two blocks beside one wall or "
+                 "fixed block, and no more; leave it out");
   // In the words of the file, which has no bodies.
   expect_problem(wall + "[blue]\nmass = 0\n", "4: blue.mass = 0: must be greater than 0");
   const auto overlap = problems(wall + "[red]\nposition = 2.5\n");
