@@ -1,5 +1,5 @@
 // The general engine: any number of balls in any dimension, from collision to collision.
-// In: particles at time 0; walls are particles of infinite mass. Out: the collisions in order.
+// In: particles at time 0, walls among them. Out: the collisions in order.
 // Between collisions every particle flies straight, so nothing is stepped and nothing is missed.
 // Scalar is double, long double or a Boost.Multiprecision float.
 #pragma once
@@ -22,7 +22,8 @@
 
 namespace piblocks {
 
-/// A ball in free flight (in one dimension a block: an interval). Units are the caller's own.
+/// A ball in free flight (in one dimension a block: an interval), or a wall. Units are the caller's
+/// own.
 template <typename Scalar, int Dim>
 struct Particle {
   static_assert(Dim >= 1, "a particle needs a space of fixed dimension");
@@ -32,7 +33,11 @@ struct Particle {
   Scalar radius = Scalar(1);         ///< > 0, finite; half the width of a block
   Vector position = Vector::Zero();  ///< of the centre, finite
   Vector velocity = Vector::Zero();  ///< finite
+  /// Not 0: it is a wall through `position` that faces this way, of any length; its mass must be
+  /// infinite, and its radius has no meaning.
+  Vector facing = Vector::Zero();
 
+  bool is_wall() const { return facing != Vector::Zero(); }
   bool is_immovable() const { return mass == kInfiniteMass<Scalar>; }
 };
 
@@ -96,8 +101,14 @@ std::optional<Scalar> collision_time(const Particle<Scalar, Dim>& p,
   if (p.is_immovable() && q.is_immovable()) return std::nullopt;
   if (p.velocity == q.velocity) return std::nullopt;
 
+  if (p.is_wall()) return collision_time(q, p);
   const Vector x = q.position - p.position;
   const Vector v = q.velocity - p.velocity;
+  if (q.is_wall()) {
+    const Vector towards = -detail::direction(q.facing);
+    return time_to_contact(Scalar(detail::dot(x, towards) - p.radius),
+                           Scalar(-detail::dot(v, towards)));
+  }
   const Vector course = detail::direction(v);
   const Scalar along = -detail::dot(x, course);
   if (along <= 0) return std::nullopt;
@@ -124,7 +135,9 @@ std::optional<Scalar> collision_time(const Particle<Scalar, Dim>& p,
 template <typename Scalar, int Dim>
 void collide(Particle<Scalar, Dim>& p, Particle<Scalar, Dim>& q) {
   using Vector = typename Particle<Scalar, Dim>::Vector;
-  const Vector normal = detail::direction(Vector(q.position - p.position));
+  const Vector normal = p.is_wall()   ? detail::direction(p.facing)
+                        : q.is_wall() ? Vector(-detail::direction(q.facing))
+                                      : detail::direction(Vector(q.position - p.position));
   const Scalar closing_speed = detail::dot(Vector(p.velocity - q.velocity), normal);
   // Rounding can leave a grazing pair receding at contact; an impulse would pull it together.
   if (closing_speed <= 0) return;
@@ -305,11 +318,15 @@ class EventSimulator {
       const Body& body = particles_[i];
       const std::string name = "simulation: particle " + std::to_string(i) + ": ";
       if (!(body.mass > 0)) problems.push_back(name + "mass is not positive");
+      if (body.is_wall() && !body.is_immovable()) {
+        problems.push_back(name + "is a wall, and its mass is not infinite");
+      }
       if (!(body.radius > 0 && isfinite(body.radius))) {
         problems.push_back(name + "radius is not positive and finite");
       }
       if (!body.position.allFinite()) problems.push_back(name + "position is not finite");
       if (!body.velocity.allFinite()) problems.push_back(name + "velocity is not finite");
+      if (!body.facing.allFinite()) problems.push_back(name + "facing is not finite");
     }
     if (!problems.empty()) throw UsageError(std::move(problems));
   }

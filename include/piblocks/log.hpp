@@ -147,12 +147,23 @@ class Log {
   BodySystem system_;
 };
 
+enum class Engine {
+  unfolded,  ///< the cheapest that is right: a closed form, exact or certified steps
+  events     ///< the article's event loop in double precision, whose errors nothing bounds
+};
+
+/// Most bodies that Engine::events steps; its memory grows with their square.
+inline constexpr std::size_t kMaxEventBodies = 1000;
+
 /// Two blocks and one wall or immovable block beside them are in closed form. All others are
 /// stepped and stored. Nothing is stepped yet.
 /// @param horizon  the time until which collisions count where they may never end, >= 0
 /// @param stop     from when it asks to stop on, members that have to step throw Interrupted
-/// @throws SceneError if problems_of(system) is not empty; UsageError if the horizon is negative.
+/// @throws SceneError if problems_of(system) is not empty; UsageError if the horizon is negative,
+/// or
+///         Engine::events is asked for more than kMaxEventBodies, for more than
+///         kMaxStoredCollisions of two blocks, or for inelastic ones.
 std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon = {},
-                              const std::stop_token& stop = {});
+                              const std::stop_token& stop = {}, Engine engine = Engine::unfolded);
 
 }  // namespace piblocks

@@ -160,12 +160,7 @@ class CollisionLog : public Log {
 /// As turn_of(log.pair()->blocks()); nothing of other bodies.
 std::optional<Rational> turn_of(const Log& log);
 
-enum class Engine {
-  unfolded,  ///< closed form; any number of collisions at the price of one
-  events     ///< the article's event loop in double precision, stored
-};
-
-/// Most collisions that Engine::events stores, at 56 bytes each: seven digits of pi.
+/// Most collisions of two blocks that Engine::events stores, at 56 bytes each: seven digits of pi.
 inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.

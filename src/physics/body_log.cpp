@@ -57,19 +57,19 @@ Integer Log::first_since(const Rational& time) const {
 }
 
 std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon,
-                              const std::stop_token& stop) {
+                              const std::stop_token& stop, Engine engine) {
   require_valid(problems_of(system));
-  return make_log_of_valid(system, horizon, stop);
+  return make_log_of_valid(system, horizon, stop, engine);
 }
 
 std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
                                        const std::optional<Rational>& horizon,
-                                       const std::stop_token& stop) {
+                                       const std::stop_token& stop, Engine engine) {
   if (const std::optional<TwoBlocks> blocks = two_blocks_of(system)) {
-    return make_valid_collision_log(*blocks);
+    return make_valid_collision_log(*blocks, engine);
   }
   if (horizon) require_not_negative(*horizon);
-  return make_stored_body_log(system, horizon, stop);
+  return make_stored_body_log(system, horizon, stop, engine);
 }
 
 }  // namespace piblocks

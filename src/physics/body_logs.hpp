@@ -13,15 +13,15 @@
 namespace piblocks {
 
 /// Collisions that are computed one after the other when they are asked for, and stored.
-/// @param horizon, stop  as make_log()
+/// @param horizon, stop, engine  as make_log()
 std::unique_ptr<Log> make_stored_body_log(const BodySystem& system,
                                           const std::optional<Rational>& horizon,
-                                          const std::stop_token& stop);
+                                          const std::stop_token& stop, Engine engine);
 
 /// As make_log(). @param system  has no problems
 std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
                                        const std::optional<Rational>& horizon,
-                                       const std::stop_token& stop);
+                                       const std::stop_token& stop, Engine engine);
 
 /// All bodies at time 0.
 std::vector<BodyMotion> motions_at_start(const BodySystem& system);

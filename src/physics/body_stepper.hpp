@@ -6,6 +6,7 @@
 #include <piblocks/log.hpp>
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -53,5 +54,10 @@ std::unique_ptr<BodyStepper> make_disc_stepper(const BodySystem& system);
 /// Blocks on a line: in rational numbers while these are short, then in double precision with an
 /// error bound.
 std::unique_ptr<BodyStepper> make_line_stepper(const BodySystem& system);
+
+/// Engine::events: EventSimulator in double precision. Nothing bounds its errors, so that all of
+/// its steps count as certain.
+/// @throws UsageError if there are more than kMaxEventBodies.
+std::unique_ptr<BodyStepper> make_event_stepper(const BodySystem& system);
 
 }  // namespace piblocks

@@ -54,10 +54,13 @@ double crossing_time(const BodySystem& system) {
 /// Steps are computed when they are first asked for, and stay.
 class StoredBodyLog final : public Log {
  public:
-  StoredBodyLog(const BodySystem& system, std::optional<Rational> horizon, std::stop_token stop)
+  StoredBodyLog(const BodySystem& system, std::optional<Rational> horizon, std::stop_token stop,
+                Engine engine)
       : Log(system),
         stop_(std::move(stop)),
-        stepper_(system.dimensions == 1 ? make_line_stepper(system) : make_disc_stepper(system)),
+        stepper_(engine == Engine::events ? make_event_stepper(system)
+                 : system.dimensions == 1 ? make_line_stepper(system)
+                                          : make_disc_stepper(system)),
         start_(motions_at_start(system)),
         never_ends_(may_never_end(system)),
         horizon_(never_ends_ ? std::move(horizon) : std::nullopt),
@@ -326,8 +329,8 @@ class StoredBodyLog final : public Log {
 
 std::unique_ptr<Log> make_stored_body_log(const BodySystem& system,
                                           const std::optional<Rational>& horizon,
-                                          const std::stop_token& stop) {
-  return std::make_unique<StoredBodyLog>(system, horizon, stop);
+                                          const std::stop_token& stop, Engine engine) {
+  return std::make_unique<StoredBodyLog>(system, horizon, stop, engine);
 }
 
 }  // namespace piblocks

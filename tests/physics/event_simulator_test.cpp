@@ -269,13 +269,16 @@ TEST(EventSimulator, ReportsEverythingWrongWithItsParticlesAtOnce) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Rod thin = rod(1, 5, 0);
   thin.radius = 0;
+  Rod light_wall = rod(1, 9, 0);
+  light_wall.facing[0] = 1;
   EXPECT_EQ(message_of([&] {
-              Rods({rod(-1, nan, 0), thin, rod(1, 8, nan)});
+              Rods({rod(-1, nan, 0), thin, rod(1, 8, nan), light_wall});
             }),
             "simulation: particle 0: mass is not positive\n"
             "simulation: particle 0: position is not finite\n"
             "simulation: particle 1: radius is not positive and finite\n"
-            "simulation: particle 2: velocity is not finite");
+            "simulation: particle 2: velocity is not finite\n"
+            "simulation: particle 3: is a wall, and its mass is not infinite");
 }
 
 }  // namespace

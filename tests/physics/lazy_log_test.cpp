@@ -5,6 +5,7 @@
 
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/property.hpp"
@@ -156,6 +157,48 @@ TEST(LazyLog, StopsWhenItIsAsked) {
   source.request_stop();
   EXPECT_EQ(log->count_at(90), 10) << "what is known stays known";
   EXPECT_THROW(log->count_at(1'000'000), Interrupted);
+}
+
+/// Rounding may exchange collisions that happen together, and everything after them.
+TEST(EventEngine, StepsAnySystemAsTheOthersDo) {
+  int compared = 0;
+  int at_walls = 0;
+  for (std::uint64_t i = 0; i < std::uint64_t(many(300)); ++i) {
+    Random random(9'000 + i);
+    const BodySystem system = random_system(random);
+    SCOPED_TRACE(random.trace() + ", system " + std::to_string(i));
+    const auto right = make_log(system);
+    const auto stepped = make_log(system, {}, {}, Engine::events);
+    double before = -1;
+    for (Integer k = 1; k <= 20 && right->has(k); ++k) {
+      ASSERT_TRUE(stepped->has(k));
+      const BodyCollision a = right->collision(k);
+      const BodyCollision b = stepped->collision(k);
+      if (a.time.hi - before < 1e-6 || right->certain_until(to_rational(a.time))) break;
+      if (right->has(k + 1) && right->collision_time(k + 1).hi - a.time.hi < 1e-6) break;
+      before = a.time.hi;
+      EXPECT_NEAR(b.time.hi, a.time.hi, 1e-9 * (1 + a.time.hi));
+      ASSERT_EQ(std::pair(b.first, b.second), std::pair(a.first, a.second)) << "#" << k.get_str();
+      for (const std::size_t axis : {0U, 1U}) {
+        EXPECT_NEAR(b.first_after.position.at(axis), a.first_after.position.at(axis), 1e-7);
+        EXPECT_NEAR(b.first_after.velocity.at(axis), a.first_after.velocity.at(axis), 1e-7);
+      }
+      ++compared;
+      at_walls += a.second >= system.bodies.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(compared, many(600));
+  EXPECT_GT(at_walls, many(100));
+}
+
+TEST(EventEngine, SaysHowManyBodiesItSteps) {
+  BodySystem system;
+  for (std::size_t i = 0; i <= kMaxEventBodies; ++i) {
+    system.bodies.push_back({.position = {Rational(2 * i)}});
+  }
+  EXPECT_THROW(make_log(system, {}, {}, Engine::events), UsageError);
+  system.bodies.pop_back();
+  EXPECT_EQ(make_log(system, {}, {}, Engine::events)->last(), 0);
 }
 
 TEST(LazyLog, RejectsWhatIsNoSystem) {

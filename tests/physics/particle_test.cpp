@@ -143,6 +143,36 @@ TEST(Collide, AWallReflectsAndStaysAsItIs) {
   EXPECT_EQ(ball.velocity, Disc::Vector(2, 5));
 }
 
+/// Against the distance from a line, in any direction and on either side of the pair.
+TEST(Collide, AFlatWallTurnsTheVelocityAlongItsNormal) {
+  Random random(11);
+  SCOPED_TRACE(random.trace());
+  int hits = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double angle = random.uniform(0, 6.28);
+    const Disc::Vector normal(std::cos(angle), std::sin(angle));
+    Disc wall{.mass = kInfinity, .position = {1, 2}, .facing = random.uniform(0.1, 10) * normal};
+    const double gap = random.uniform(0, 5);
+    const Disc::Vector along(-normal[1], normal[0]);
+    Disc ball{.mass = 3,
+              .radius = 0.5,
+              .position = wall.position + (0.5 + gap) * normal + random.uniform(-9, 9) * along,
+              .velocity = {random.uniform(-2, 2), random.uniform(-2, 2)}};
+    const double speed = -ball.velocity.dot(normal);
+    const auto time = collision_time(wall, ball);
+    ASSERT_EQ(time, collision_time(ball, wall));
+    ASSERT_EQ(time.has_value(), speed > 0);
+    if (!time) continue;
+    ++hits;
+    EXPECT_NEAR(*time, gap / speed, 1e-12 * (1 + gap) / speed);
+    const Disc::Vector expected = ball.velocity + 2 * speed * normal;
+    trial % 2 == 0 ? collide(wall, ball) : collide(ball, wall);
+    EXPECT_LT((ball.velocity - expected).norm(), 1e-14);
+    EXPECT_EQ(wall.velocity, Disc::Vector::Zero());
+  }
+  EXPECT_GT(hits, 800);
+}
+
 TEST(Collide, AMovingWallAddsTwiceItsSpeed) {
   Rod wall = rod(kInfinity, 0, 3);
   Rod ball = rod(1, 1, -2);

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/event_simulator.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "physics/body_stepper.hpp"
+
+namespace piblocks {
+namespace {
+
+/// The public simulator with a system's bodies, and its walls after them.
+template <int Dim>
+class EventStepper final : public BodyStepper {
+ public:
+  explicit EventStepper(const BodySystem& system) : simulator_(particles_of(system)) {}
+
+  std::optional<BodyStep> step() override {
+    const auto event = simulator_.step();
+    if (!event) return std::nullopt;
+    BodyStep step;
+    step.time = {event->time, 0};
+    step.first = static_cast<std::uint32_t>(event->first);
+    step.second = static_cast<std::uint32_t>(event->second);
+    step.first_after = motion_of(event->first_after);
+    step.second_after = motion_of(event->second_after);
+    return step;
+  }
+  Certainty certainty() const override { return {}; }
+
+ private:
+  using Simulator = EventSimulator<double, Dim>;
+  using Particle = typename Simulator::Body;
+  using Vector = typename Particle::Vector;
+
+  static Vector rounded(const ExactVector& exact) {
+    Vector vector;
+    std::transform(exact.begin(), exact.begin() + Dim, vector.begin(),
+                   [](const Rational& x) { return to_double(x); });
+    return vector;
+  }
+  static BodyMotion motion_of(const Particle& particle) {
+    BodyMotion motion;
+    std::ranges::copy(particle.position, motion.position.begin());
+    std::ranges::copy(particle.velocity, motion.velocity.begin());
+    return motion;
+  }
+  static std::vector<Particle> particles_of(const BodySystem& system) {
+    std::vector<Particle> particles;
+    for (const Body& body : system.bodies) {
+      particles.push_back({.mass = body.mass ? to_double(*body.mass) : kInfiniteMass<double>,
+                           .radius = to_double(Dim == 1 ? Rational(body.size / 2) : body.size),
+                           .position = rounded(body.position),
+                           .velocity = rounded(body.velocity)});
+    }
+    for (const Wall& wall : system.walls) {
+      particles.push_back({.mass = kInfiniteMass<double>,
+                           .position = rounded(wall.point),
+                           .facing = rounded(wall.normal)});
+    }
+    return particles;
+  }
+
+  Simulator simulator_;
+};
+
+}  // namespace
+
+std::unique_ptr<BodyStepper> make_event_stepper(const BodySystem& system) {
+  if (system.bodies.size() > kMaxEventBodies) {
+    throw UsageError(fmt::format(
+        "event loop: {} bodies are more than the limit of {}; leave out --engine events",
+        system.bodies.size(), kMaxEventBodies));
+  }
+  if (system.dimensions == 1) return std::make_unique<EventStepper<1>>(system);
+  return std::make_unique<EventStepper<2>>(system);
+}
+
+}  // namespace piblocks
