@@ -4,6 +4,7 @@
 
 #include <piblocks/exact.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ struct Block {
   Rational width;     ///< > 0
 };
 
-/// Order along the x axis: wall face, blue block, red block. Touching is allowed.
-struct BlockSystem {
+/// Two blocks beside something immovable, seen from there: order along the x axis is wall face,
+/// blue block, red block. Touching is allowed.
+struct TwoBlocks {
   Rational wall_face = 0;  ///< where the wall ends; blue never passes it
   Block blue = {1, 2, 0, 1};
   Block red = {10000, 5, -1, 1};
@@ -28,6 +30,11 @@ struct BlockSystem {
   /// they have when they part; 0 (they stay together) … 1 (elastic).
   Rational blocks_restitution = 1;
   Rational wall_restitution = 1;  ///< of blue and the wall
+  // Which bodies of a BodySystem they are, numbered as in BodyCollision.
+  std::uint32_t blue_id = 0;
+  std::uint32_t red_id = 1;
+  std::uint32_t wall_id = 2;  ///< a body or a wall
+  int side = 1;               ///< -1: in the system the wall is on the right
 
   /// The gaps at time 0, between the wall and blue and between blue and red.
   Rational blue_gap() const { return blue.position - blue.width / 2 - wall_face; }
@@ -38,14 +45,14 @@ struct BlockSystem {
 
 /// Whether collisions keep the energy, so that the motion unfolds to a straight line and its past
 /// is known.
-inline bool is_elastic(const BlockSystem& system) {
+inline bool is_elastic(const TwoBlocks& system) {
   return system.blocks_restitution == 1 && system.wall_restitution == 1;
 }
 
 /// When the blocks are nearest to the corner of wall and blocks, as the plane with axes
 /// (sqrt(m) x gap) measures it: the middle of all collisions. It may be before time 0. Nothing if
 /// neither block moves. With restitution below 1: when red is nearest to the wall, from time 0 on.
-std::optional<Rational> turn_of(const BlockSystem& system);
+std::optional<Rational> turn_of(const TwoBlocks& system);
 
 inline constexpr int kMaxDigits = 100'000;
 
@@ -57,7 +64,7 @@ Rational mass_ratio_of(int digits, int base = kUsualBase);
 
 /// The article's blocks, with red that many times as heavy as blue.
 /// @throws UsageError as mass_ratio_of()
-BlockSystem article_blocks(int digits, int base = kUsualBase);
+TwoBlocks article_blocks(int digits, int base = kUsualBase);
 
 /// What is wrong with one value of a scene.
 struct Problem {

@@ -72,19 +72,9 @@ std::vector<Problem> problems_of(const BodySystem& system);
 /// objects for ever.
 bool may_never_end(const BodySystem& system);
 
-/// Which bodies are two blocks beside something immovable, and the same blocks seen from there.
-struct TwoBlocks {
-  BlockSystem blocks;      ///< with the wall on the left
-  BodySystem system;       ///< what they stand in
-  std::uint32_t blue = 0;  ///< the number of the body beside the wall, as in BodyCollision
-  std::uint32_t red = 1;   ///< of the other one
-  std::uint32_t wall = 2;  ///< of what is immovable, a body or a wall
-  int side = 1;            ///< -1: what is immovable is on the right
-};
-
 /// The blocks of a system that is nothing but that; nothing for all others.
 std::optional<TwoBlocks> two_blocks_of(const BodySystem& system);
 /// The same as bodies: blue, red, and a wall, with these names.
-BodySystem system_of(const BlockSystem& blocks);
+BodySystem system_of(const TwoBlocks& blocks);
 
 }  // namespace piblocks

@@ -1,5 +1,5 @@
 // Blocks that lose energy where they collide: runs without end, and how much loss pi can take.
-// In: a BlockSystem with restitutions, or a number of digits. Out: exact answers.
+// In: a TwoBlocks with restitutions, or a number of digits. Out: exact answers.
 #pragma once
 
 #include <piblocks/exact.hpp>
@@ -23,7 +23,7 @@ struct Collapse {
 
 /// The collapse of a system that has one; nothing if its collisions are finitely many.
 /// @throws SceneError if problems_of(system) is not empty.
-std::optional<Collapse> collapse_of(const BlockSystem& system);
+std::optional<Collapse> collapse_of(const TwoBlocks& system);
 
 /// Whether log.last() stands for infinitely many collisions: see Collapse.
 inline bool is_endless(const Log& log) { return log.pair() != nullptr && log.pair()->is_endless(); }

@@ -1,5 +1,5 @@
 // Only for two blocks beside something immovable: gaps, bounds, the past, the exact count. In: a
-// BlockSystem. Out: numbers; stored and computed logs look alike.
+// TwoBlocks. Out: numbers; stored and computed logs look alike.
 #pragma once
 
 #include <piblocks/block_system.hpp>
@@ -88,8 +88,7 @@ struct Gaps {
 /// that then leaves the wall, have had collision 0 at time 0.
 class CollisionLog : public Log {
  public:
-  const TwoBlocks& two_blocks() const noexcept { return two_blocks_; }
-  const BlockSystem& blocks() const noexcept { return two_blocks_.blocks; }
+  const TwoBlocks& blocks() const noexcept { return blocks_; }
 
   /// The collision with first_index() <= index <= last().
   /// @throws SimulationError if its time or state is beyond the range of a double.
@@ -141,7 +140,9 @@ class CollisionLog : public Log {
   const CollisionLog* pair() const noexcept override { return this; }
 
  protected:
-  explicit CollisionLog(const TwoBlocks& blocks) : Log(blocks.system), two_blocks_(blocks) {}
+  /// @param system  with two_blocks_of()
+  explicit CollisionLog(const BodySystem& system)
+      : Log(system), blocks_(two_blocks_of(system).value()) {}
   void set_range(Integer first_index, Integer last) {
     first_index_ = std::move(first_index);
     last_ = std::move(last);
@@ -149,10 +150,10 @@ class CollisionLog : public Log {
 
  private:
   BodyMotion body_motion_of(const Motion& motion) const {
-    return {{two_blocks_.side * motion.position, 0}, {two_blocks_.side * motion.velocity, 0}};
+    return {{blocks_.side * motion.position, 0}, {blocks_.side * motion.velocity, 0}};
   }
 
-  TwoBlocks two_blocks_;
+  TwoBlocks blocks_;
   Integer first_index_ = 1;
   Integer last_ = 0;
 };
@@ -171,7 +172,7 @@ inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
 std::unique_ptr<CollisionLog> make_collision_log(const BodySystem& system,
                                                  Engine engine = Engine::unfolded);
-std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
+std::unique_ptr<CollisionLog> make_collision_log(const TwoBlocks& system,
                                                  Engine engine = Engine::unfolded);
 
 /// Number of collisions of the whole run. Of two blocks it is decided beyond doubt at any mass
@@ -181,7 +182,7 @@ std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
 /// @throws UsageError if they are infinitely many: collapse_of() in restitution.hpp; or as
 ///         Log::last().
 Integer count_collisions(const BodySystem& system, const std::optional<Rational>& horizon = {});
-Integer count_collisions(const BlockSystem& system);
+Integer count_collisions(const TwoBlocks& system);
 
 /// A run whose collisions all happen at once, in the corner of wall and blocks. Their number
 /// depends on which is taken to be first, the wall or the blocks.
@@ -193,6 +194,6 @@ struct Corner {
 };
 
 /// The corner of a system that has collisions, finitely many, and has them all at once.
-std::optional<Corner> corner_of(const BlockSystem& system);
+std::optional<Corner> corner_of(const TwoBlocks& system);
 
 }  // namespace piblocks

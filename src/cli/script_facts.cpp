@@ -35,7 +35,7 @@ std::optional<Integer> infinite_count(const Log& log) {
 
 std::optional<std::string> endless_note(const Scene& scene) {
   const std::optional<TwoBlocks> pair = two_blocks_of(scene.system);
-  const std::optional<Collapse> collapse = pair ? collapse_of(pair->blocks) : std::nullopt;
+  const std::optional<Collapse> collapse = pair ? collapse_of(*pair) : std::nullopt;
   if (!collapse) return std::nullopt;
   const std::string end = collapse->time
                               ? fmt::format(" until the blocks rest at t = {}", collapse->time->hi)
@@ -74,7 +74,7 @@ std::vector<std::string> convention_notes(const Script& script) {
   std::vector<std::string> notes;
   for (const Scene* scene : scenes_of(script)) {
     const std::optional<TwoBlocks> pair = two_blocks_of(scene->system);
-    const auto corner = pair ? corner_of(pair->blocks) : std::nullopt;
+    const auto corner = pair ? corner_of(*pair) : std::nullopt;
     if (!corner) continue;
     notes.push_back(fmt::format(
         "all collisions happen at once, at t = {}, when blue touches both wall and red: by "

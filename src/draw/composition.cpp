@@ -43,7 +43,7 @@ bool is_finite(const BodyMotion& motion) {
 }
 
 const TwoBlocks* two_blocks_of(const Log& log) {
-  return log.pair() != nullptr ? &log.pair()->two_blocks() : nullptr;
+  return log.pair() != nullptr ? &log.pair()->blocks() : nullptr;
 }
 
 /// Places all that a scene shows, and makes its drawables in the order of their ids.
@@ -53,9 +53,8 @@ class Composer {
       : scene_(scene),
         is_article_(scene.view.theme == Theme::article && scene.system.dimensions == 1),
         colors_(colors_of(scene, two_blocks_of(log))),
-        palette_(log.pair() != nullptr
-                     ? palette_of(scene.view.theme, log.pair()->two_blocks(), colors_)
-                     : palette_of(scene.view.theme)),
+        palette_(log.pair() != nullptr ? palette_of(scene.view.theme, log.pair()->blocks(), colors_)
+                                       : palette_of(scene.view.theme)),
         sizes_(scene.view),
         context_{.scene = scene,
                  .log = log,

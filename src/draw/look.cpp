@@ -193,7 +193,8 @@ void name(BlockColors& blue, BlockColors& red, const TwoBlocks& blocks) {
     return *block.name != '\0' && std::string_view(block.name) == block.full_name;
   };
   if (has_color_as_name(blue) && has_color_as_name(red)) return;
-  const auto& [face, inner, outer, restitution, wall_restitution] = blocks.blocks;
+  const Block& inner = blocks.blue;
+  const Block& outer = blocks.red;
   if (inner.mass == outer.mass) {
     BlockColors& left = blocks.side > 0 ? blue : red;
     BlockColors& right = blocks.side > 0 ? red : blue;
@@ -222,8 +223,8 @@ Palette palette_of(Theme theme) {
 
 Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<BlockColors>& colors) {
   Palette palette = palette_of(theme);
-  palette.blue = colors[blocks.blue];
-  palette.red = colors[blocks.red];
+  palette.blue = colors[blocks.blue_id];
+  palette.red = colors[blocks.red_id];
   return palette;
 }
 
@@ -252,7 +253,7 @@ std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) 
       colors.push_back(turns[all.size() > kMostColored ? 0 : i % turns.size()]);
     }
   }
-  if (blocks != nullptr) name(colors[blocks->blue], colors[blocks->red], *blocks);
+  if (blocks != nullptr) name(colors[blocks->blue_id], colors[blocks->red_id], *blocks);
   return colors;
 }
 

@@ -16,7 +16,7 @@ BlockState blocks_state(const BodiesState& state, const TwoBlocks& blocks) {
     const auto& [position, velocity] = state.bodies[body];
     return Motion{blocks.side * position[0], blocks.side * velocity[0]};
   };
-  return {state.count, motion(blocks.blue), motion(blocks.red)};
+  return {state.count, motion(blocks.blue_id), motion(blocks.red_id)};
 }
 
 }  // namespace piblocks

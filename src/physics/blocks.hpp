@@ -35,7 +35,7 @@ inline Motion motion_at(const Block& block, const Rational& time) {
 inline Motion reversed(const Motion& motion) { return {motion.position, -motion.velocity}; }
 
 /// The same blocks with opposite velocities: what they do is the past of `system`, backwards.
-inline BlockSystem reversed(BlockSystem system) {
+inline TwoBlocks reversed(TwoBlocks system) {
   system.blue.velocity = -system.blue.velocity;
   system.red.velocity = -system.red.velocity;
   return system;
@@ -92,20 +92,20 @@ class TiedCollision : public UsageError {
 /// @throws TiedCollision unless the collision is the last one at its time.
 void require_last(const Integer& index, const Integer& last_at_its_time);
 
-/// As make_collision_log() of a system without problems.
-std::unique_ptr<CollisionLog> make_valid_collision_log(const TwoBlocks& blocks,
+/// As make_collision_log() of a system without problems, which has two_blocks_of().
+std::unique_ptr<CollisionLog> make_valid_collision_log(const BodySystem& system,
                                                        Engine engine = Engine::unfolded);
 
 /// The event loop in exact rational arithmetic, for the few collisions of a light red block. Every
 /// answer is rounded once.
 /// @param system  with m_red <= m_blue, or at rest.
-std::unique_ptr<CollisionLog> make_exact_log(const TwoBlocks& blocks);
+std::unique_ptr<CollisionLog> make_exact_log(const BodySystem& system);
 
 /// Engine::events, which advances positions to the next collision of any pair, in double precision.
 /// @throws UsageError if the collisions are more than kMaxStoredCollisions.
 /// @throws SimulationError if a number leaves its range, or the rounding of double precision more
 ///         than doubles the number of collisions.
-std::unique_ptr<CollisionLog> make_stored_log(const TwoBlocks& blocks);
+std::unique_ptr<CollisionLog> make_stored_log(const BodySystem& system);
 
 /// Name and version of each library of numbers that is linked, such as "MPFR 4.2.0".
 std::vector<std::string> physics_library_versions();

@@ -34,8 +34,9 @@ std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
 BodyExposure expose(const Log& log, const Rational& begin, const Rational& end) {
   if (end < begin) return expose(log, end, begin);
   if (const CollisionLog* const pair = log.pair()) {
-    const TwoBlocks& blocks = pair->two_blocks();
-    return {{}, ClosedExposure{pair->expose(begin, end), blocks.blue, blocks.red, blocks.side}};
+    const TwoBlocks& blocks = pair->blocks();
+    return {{},
+            ClosedExposure{pair->expose(begin, end), blocks.blue_id, blocks.red_id, blocks.side}};
   }
   // What is stepped can be listed: a log has no more than kMaxBodyCollisions.
   constexpr auto kAll = static_cast<std::size_t>(kMaxBodyCollisions);

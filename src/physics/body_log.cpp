@@ -65,9 +65,7 @@ std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rati
 std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
                                        const std::optional<Rational>& horizon,
                                        const std::stop_token& stop, Engine engine) {
-  if (const std::optional<TwoBlocks> blocks = two_blocks_of(system)) {
-    return make_valid_collision_log(*blocks, engine);
-  }
+  if (two_blocks_of(system)) return make_valid_collision_log(system, engine);
   if (horizon) require_not_negative(*horizon);
   return make_stored_body_log(system, horizon, stop, engine);
 }

@@ -16,15 +16,15 @@ constexpr int kMaxEvents = 16;
 struct ExactCollision {
   Rational time;
   CollisionKind kind;
-  BlockSystem blocks;
+  TwoBlocks blocks;
 };
 
-void advance(BlockSystem& system, const Rational& duration) {
+void advance(TwoBlocks& system, const Rational& duration) {
   system.blue.position += system.blue.velocity * duration;
   system.red.position += system.red.velocity * duration;
 }
 
-void collide_blocks(BlockSystem& system) {
+void collide_blocks(TwoBlocks& system) {
   Block& blue = system.blue;
   Block& red = system.red;
   const Rational closing = blue.velocity - red.velocity;
@@ -33,7 +33,7 @@ void collide_blocks(BlockSystem& system) {
 }
 
 /// Performs the next collision.
-std::optional<ExactCollision> next_after(const Rational& time, BlockSystem now) {
+std::optional<ExactCollision> next_after(const Rational& time, TwoBlocks now) {
   const auto to_wall = time_to_contact(now.blue_gap(), Rational(-now.blue.velocity));
   const auto to_blocks =
       time_to_contact(now.blocks_gap(), Rational(now.blue.velocity - now.red.velocity));
@@ -50,7 +50,7 @@ std::optional<ExactCollision> next_after(const Rational& time, BlockSystem now) 
                         std::move(now)};
 }
 
-std::vector<ExactCollision> run(const BlockSystem& system) {
+std::vector<ExactCollision> run(const TwoBlocks& system) {
   std::vector<ExactCollision> events;
   for (auto event = next_after(0, system); event;
        event = next_after(events.back().time, events.back().blocks)) {
@@ -70,15 +70,15 @@ Collision rounded_collision(const Integer& index, const ExactCollision& exact) {
   return result;
 }
 
-Gaps gaps_of(const BlockSystem& blocks) {
+Gaps gaps_of(const TwoBlocks& blocks) {
   const Rational y1 = blocks.blue_gap();
   return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
 }
 
 class ExactLog final : public CollisionLog {
  public:
-  explicit ExactLog(const TwoBlocks& two_blocks)
-      : CollisionLog(two_blocks), start_{0, CollisionKind::wall, blocks()} {
+  explicit ExactLog(const BodySystem& system)
+      : CollisionLog(system), start_{0, CollisionKind::wall, blocks()} {
     // Before time 0 the velocities just after a collision are the opposite of those just before it
     // in the reversed run.
     for (ExactCollision& event : run(reversed(blocks()))) {
@@ -123,10 +123,10 @@ class ExactLog final : public CollisionLog {
  private:
   using Events = std::vector<ExactCollision>;
 
-  BlockSystem system_at(const Rational& time) const {
+  TwoBlocks system_at(const Rational& time) const {
     const auto next = happened(time);
     const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
-    BlockSystem blocks = since.blocks;
+    TwoBlocks blocks = since.blocks;
     advance(blocks, time - since.time);
     return blocks;
   }
@@ -144,8 +144,8 @@ class ExactLog final : public CollisionLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_exact_log(const TwoBlocks& blocks) {
-  return std::make_unique<ExactLog>(blocks);
+std::unique_ptr<CollisionLog> make_exact_log(const BodySystem& system) {
+  return std::make_unique<ExactLog>(system);
 }
 
 }  // namespace piblocks

@@ -61,7 +61,7 @@ DoubleDouble Landmark::steps_from(const Integer& other) const {
   return to_time(Rational(steps));
 }
 
-ExactMotion::ExactMotion(const BlockSystem& system)
+ExactMotion::ExactMotion(const TwoBlocks& system)
     : ratio(system.blue.mass / system.red.mass),
       y1(system.blue_gap()),
       y2(system.blue_gap() + system.blocks_gap()),

@@ -1,5 +1,5 @@
 // The unfolded motion in exact numbers: a straight line that crosses rays at equal angles.
-// In: a BlockSystem. Out: how many rays the line has crossed, decided beyond doubt.
+// In: a TwoBlocks. Out: how many rays the line has crossed, decided beyond doubt.
 // Notation: README.md, "The unfolding". Even rays are collisions with the wall, odd ones of the
 // blocks.
 #pragma once
@@ -63,7 +63,7 @@ struct Wedge {
 
 /// The data are rational; only answers are rounded.
 struct ExactMotion {
-  explicit ExactMotion(const BlockSystem& system);
+  explicit ExactMotion(const TwoBlocks& system);
 
   Rational ratio;             ///< r = m_blue / m_red
   Rational y1, y2;            ///< gaps at time 0

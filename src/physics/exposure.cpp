@@ -32,7 +32,7 @@ void add_flights(const CollisionLog& log, Time now, const Integer& count, const 
 }
 
 /// Many bounces, by two there and back: between wall and red blue is everywhere for the same time.
-void add_bounces(const BlockSystem& system, double duration, const BlockState& start,
+void add_bounces(const TwoBlocks& system, double duration, const BlockState& start,
                  const BlockState& stop, PieceList& pieces) {
   const double wall = to_double(system.wall_face + system.blue.width / 2);
   const double to_red = to_double((system.blue.width + system.red.width) / 2);

@@ -52,7 +52,7 @@ Integer UnfoldedLog::count_near(const Time& time) const {
 std::optional<Impact> CollisionLog::impact(CollisionKind kind, const Integer& first,
                                            const Integer& last) const {
   std::optional<Impact> sum = blocks_impact(kind, first, last);
-  if (sum) sum->position *= two_blocks().side;
+  if (sum) sum->position *= blocks().side;
   return sum;
 }
 

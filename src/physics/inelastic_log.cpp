@@ -28,8 +28,8 @@ double position(const Real& gap, const Rational& offset) {
 
 }  // namespace
 
-InelasticLog::InelasticLog(const TwoBlocks& two_blocks)
-    : CollisionLog(two_blocks),
+InelasticLog::InelasticLog(const BodySystem& system)
+    : CollisionLog(system),
       motion_(blocks()),
       // Beside the velocity of blue that of red is as small as their mass ratio.
       velocity_bits_(kPosition_bits + std::labs(Real(64, motion_.ratio).exponent())),

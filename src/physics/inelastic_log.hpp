@@ -1,6 +1,6 @@
 // Blocks that lose energy where they collide, as a collision log: each question costs the same,
 // however many collisions there are.
-// In: a BlockSystem with restitutions below 1. Out: any collision, any state.
+// In: a TwoBlocks with restitutions below 1. Out: any collision, any state.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace piblocks {
 class InelasticLog final : public CollisionLog {
  public:
   /// @throws SimulationError as RoundPowers.
-  explicit InelasticLog(const TwoBlocks& two_blocks);
+  explicit InelasticLog(const BodySystem& system);
 
   Collision blocks_collision(const Integer& index) const override;
   BlockState blocks_at(const Rational& time) const override;

@@ -44,7 +44,7 @@ Integer doubled_while(const auto& holds) {
 
 }  // namespace
 
-InelasticMotion::InelasticMotion(const BlockSystem& system)
+InelasticMotion::InelasticMotion(const TwoBlocks& system)
     : ratio(system.blue.mass / system.red.mass),
       wall_restitution(system.wall_restitution),
       blocks_restitution(system.blocks_restitution),

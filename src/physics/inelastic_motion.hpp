@@ -1,5 +1,5 @@
 // The motion of blocks that lose energy where they collide, in exact numbers.
-// In: a BlockSystem with restitutions below 1. Out: how many collisions have happened, decided
+// In: a TwoBlocks with restitutions below 1. Out: how many collisions have happened, decided
 // beyond doubt, and the numbers of each. Notation: README.md, "Restitution".
 #pragma once
 
@@ -45,7 +45,7 @@ struct InelasticGaps {
 struct InelasticMotion {
   /// Of two collisions that are due at once the blocks' is first.
   /// @throws SimulationError as RoundPowers.
-  explicit InelasticMotion(const BlockSystem& system);
+  explicit InelasticMotion(const TwoBlocks& system);
   /// What happens if of collisions that are all due at once the others come first; nothing if they
   /// are infinitely many, or do not happen together from the first one on.
   std::optional<Corner> corner() const;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxRelativeBits = 4096;
 
-Integer count_with(const Rational& restitution, BlockSystem system) {
+Integer count_with(const Rational& restitution, TwoBlocks system) {
   system.blocks_restitution = restitution;
   system.wall_restitution = restitution;
   return count_collisions(system);
@@ -29,7 +29,7 @@ Real greatest_loss(const Rational& ratio, const Integer& count, mpfr_prec_t bits
 }  // namespace
 
 LeastRestitution least_restitution(int digits, int base, int relative_bits) {
-  const BlockSystem system = article_blocks(digits, base);
+  const TwoBlocks system = article_blocks(digits, base);
   if (relative_bits < 1 || relative_bits > kMaxRelativeBits) {
     throw UsageError(
         fmt::format("restitution: {} bits of its difference from 1; must be from 1 to {}",

@@ -16,12 +16,15 @@ Block block_of(const LineElement& element, int side) {
 
 TwoBlocks two_blocks_from(const BodySystem& system, const LineElement& wall,
                           const LineElement& blue, const LineElement& red, int side) {
-  const BlockSystem blocks{.wall_face = side * wall.position + wall.half_width,
-                           .blue = block_of(blue, side),
-                           .red = block_of(red, side),
-                           .blocks_restitution = system.restitution,
-                           .wall_restitution = system.wall_restitution};
-  return {blocks, system, blue.id, red.id, wall.id, side};
+  return {.wall_face = side * wall.position + wall.half_width,
+          .blue = block_of(blue, side),
+          .red = block_of(red, side),
+          .blocks_restitution = system.restitution,
+          .wall_restitution = system.wall_restitution,
+          .blue_id = blue.id,
+          .red_id = red.id,
+          .wall_id = wall.id,
+          .side = side};
 }
 
 }  // namespace
@@ -38,7 +41,7 @@ std::optional<TwoBlocks> two_blocks_of(const BodySystem& system) {
   return std::nullopt;
 }
 
-BodySystem system_of(const BlockSystem& blocks) {
+BodySystem system_of(const TwoBlocks& blocks) {
   const auto body_of = [](const Block& block, const char* name) {
     return Body{block.mass, {block.position}, {block.velocity}, block.width, name};
   };
@@ -58,8 +61,8 @@ bool has_short_names(const BodySystem& system) {
 BodyCollision CollisionLog::collision(const Integer& index) const {
   const Collision found = blocks_collision(index);
   const bool is_at_wall = found.kind == CollisionKind::wall;
-  const std::uint32_t blue = two_blocks_.blue;
-  const std::uint32_t other = is_at_wall ? two_blocks_.wall : two_blocks_.red;
+  const std::uint32_t blue = blocks_.blue_id;
+  const std::uint32_t other = is_at_wall ? blocks_.wall_id : blocks_.red_id;
   BodyCollision collision{
       index,
       found.time,
@@ -77,8 +80,8 @@ BodyCollision CollisionLog::collision(const Integer& index) const {
 BodiesState CollisionLog::state_at(const Rational& time) const {
   const BlockState now = blocks_at(time);
   BodiesState state{now.count, motions_at_start(system())};
-  state.bodies[two_blocks_.blue] = body_motion_of(now.blue);
-  state.bodies[two_blocks_.red] = body_motion_of(now.red);
+  state.bodies[blocks_.blue_id] = body_motion_of(now.blue);
+  state.bodies[blocks_.red_id] = body_motion_of(now.red);
   return state;
 }
 
@@ -93,8 +96,8 @@ Integer CollisionLog::first_since(const Rational& time) const {
 
 std::vector<std::vector<PathPoint>> CollisionLog::paths(const Rational& from, const Rational& to,
                                                         std::size_t most) const {
-  const std::size_t blue = two_blocks_.blue;
-  const std::size_t red = two_blocks_.red;
+  const std::size_t blue = blocks_.blue_id;
+  const std::size_t red = blocks_.red_id;
   std::vector<std::vector<PathPoint>> paths(system().bodies.size());
   const auto add = [&](double after, const Rational& time) {
     const BodiesState state = state_at(time);
@@ -141,7 +144,7 @@ std::optional<PositionBounds> CollisionLog::bounds_at(const Rational& /*time*/) 
 namespace {
 
 /// Rounding may have carried a stepping engine past a contact.
-Gaps gaps_between(const BlockSystem& system, const Motion& blue, const Motion& red) {
+Gaps gaps_between(const TwoBlocks& system, const Motion& blue, const Motion& red) {
   const Rational blue_width = system.blue.width;
   const double y1 = blue.position - to_double(system.wall_face + blue_width / 2);
   const double y2 = red.position - to_double(system.wall_face + blue_width + system.red.width / 2);

@@ -28,7 +28,7 @@ std::string endless_message(const InelasticMotion& motion) {
 
 }  // namespace
 
-std::optional<Rational> turn_of(const BlockSystem& system) {
+std::optional<Rational> turn_of(const TwoBlocks& system) {
   if (!is_elastic(system)) return InelasticMotion(system).turn();
   const ExactMotion motion(system);
   return motion.at_rest() ? std::nullopt : std::optional(motion.closest_approach);
@@ -48,8 +48,8 @@ Rational mass_ratio_of(int digits, int base) {
   return power(base * base, static_cast<unsigned long>(digits - 1));
 }
 
-BlockSystem article_blocks(int digits, int base) {
-  BlockSystem system;
+TwoBlocks article_blocks(int digits, int base) {
+  TwoBlocks system;
   system.red.mass = mass_ratio_of(digits, base);
   return system;
 }
@@ -84,34 +84,33 @@ void require_last(const Integer& index, const Integer& last_at_its_time) {
   if (index != last_at_its_time) throw TiedCollision(index, last_at_its_time);
 }
 
-std::unique_ptr<CollisionLog> make_valid_collision_log(const TwoBlocks& blocks, Engine engine) {
-  const BlockSystem& system = blocks.blocks;
-  if (engine == Engine::events) return make_stored_log(blocks);
-  if (!is_elastic(system)) return std::make_unique<InelasticLog>(blocks);
+std::unique_ptr<CollisionLog> make_valid_collision_log(const BodySystem& system, Engine engine) {
+  if (engine == Engine::events) return make_stored_log(system);
+  if (!is_elastic(system)) return std::make_unique<InelasticLog>(system);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
-  const bool is_at_rest = system.blue.velocity == 0 && system.red.velocity == 0;
-  if (system.red.mass <= system.blue.mass || is_at_rest) return make_exact_log(blocks);
-  return std::make_unique<UnfoldedLog>(blocks);
+  const TwoBlocks blocks = two_blocks_of(system).value();
+  const bool is_at_rest = blocks.blue.velocity == 0 && blocks.red.velocity == 0;
+  if (blocks.red.mass <= blocks.blue.mass || is_at_rest) return make_exact_log(system);
+  return std::make_unique<UnfoldedLog>(system);
 }
 
 std::unique_ptr<CollisionLog> make_collision_log(const BodySystem& system, Engine engine) {
   require_valid(problems_of(system));
-  const std::optional<TwoBlocks> blocks = two_blocks_of(system);
-  if (blocks) return make_valid_collision_log(*blocks, engine);
+  if (two_blocks_of(system)) return make_valid_collision_log(system, engine);
   throw UsageError("log: needs two blocks beside one wall or fixed block, and no more");
 }
 
-std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
+std::unique_ptr<CollisionLog> make_collision_log(const TwoBlocks& system, Engine engine) {
   return make_collision_log(system_of(system), engine);
 }
 
 Integer count_collisions(const BodySystem& system, const std::optional<Rational>& horizon) {
   const std::optional<TwoBlocks> blocks = two_blocks_of(system);
-  return blocks ? count_collisions(blocks->blocks) : make_log(system, horizon)->last();
+  return blocks ? count_collisions(*blocks) : make_log(system, horizon)->last();
 }
 
-Integer count_collisions(const BlockSystem& system) {
+Integer count_collisions(const TwoBlocks& system) {
   require_valid(problems_of(system_of(system)));
   if (is_elastic(system)) return ExactMotion(system).total();
   const InelasticMotion motion(system);
@@ -119,7 +118,7 @@ Integer count_collisions(const BlockSystem& system) {
   throw UsageError(endless_message(motion));
 }
 
-std::optional<Collapse> collapse_of(const BlockSystem& system) {
+std::optional<Collapse> collapse_of(const TwoBlocks& system) {
   require_valid(problems_of(system_of(system)));
   if (is_elastic(system)) return std::nullopt;
   const InelasticMotion motion(system);
@@ -128,7 +127,7 @@ std::optional<Collapse> collapse_of(const BlockSystem& system) {
   return Collapse{end ? std::optional(end->to_double_double()) : std::nullopt, motion.listed};
 }
 
-std::optional<Corner> corner_of(const BlockSystem& system) {
+std::optional<Corner> corner_of(const TwoBlocks& system) {
   require_valid(problems_of(system_of(system)));
   if (!is_elastic(system)) return InelasticMotion(system).corner();
   ExactMotion motion(system);

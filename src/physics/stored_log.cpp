@@ -37,7 +37,7 @@ Simulator::Body body_of(const Block& block) {
 }
 
 /// The article's wall: an immovable body of radius 1/2 whose far side is the face.
-Simulator::Body wall_of(const BlockSystem& system) {
+Simulator::Body wall_of(const TwoBlocks& system) {
   return {.mass = kInfiniteMass<double>,
           .radius = 0.5,
           .position = Vector(to_double(system.wall_face - Rational(1, 2)))};
@@ -76,7 +76,7 @@ class Recorder {
 };
 
 /// The article's event loop.
-StoredCollisions event_loop(const BlockSystem& system) {
+StoredCollisions event_loop(const TwoBlocks& system) {
   Simulator simulator({body_of(system.blue), body_of(system.red), wall_of(system)});
   Recorder recorder{ExactMotion(system)};
   while (const auto event = simulator.step()) {
@@ -107,8 +107,8 @@ class StoredLog final : public CollisionLog {
   /// @param forward   collisions at times >= 0, in order.
   /// @param backward  collisions of the run with all velocities reversed, in its order and with
   ///                  its times and velocities.
-  StoredLog(const TwoBlocks& blocks, StoredCollisions forward, StoredCollisions backward)
-      : CollisionLog(blocks), forward_(std::move(forward)), backward_(std::move(backward)) {
+  StoredLog(const BodySystem& system, StoredCollisions forward, StoredCollisions backward)
+      : CollisionLog(system), forward_(std::move(forward)), backward_(std::move(backward)) {
     set_range(1 - Integer(backward_.size()), forward_.size());
   }
 
@@ -165,22 +165,22 @@ class StoredLog final : public CollisionLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_stored_log(const TwoBlocks& two_blocks) {
-  const BlockSystem& system = two_blocks.blocks;
+std::unique_ptr<CollisionLog> make_stored_log(const BodySystem& system) {
   if (!is_elastic(system)) {
     throw UsageError(
         "event loop: its collisions are elastic; for blocks.restitution and wall.restitution use "
         "the closed form (--engine unfolded)");
   }
+  const TwoBlocks blocks = two_blocks_of(system).value();
   const Integer count =
-      std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
+      std::max(ExactMotion(blocks).total(), ExactMotion(reversed(blocks)).total());
   if (count > to_integer(kMaxStoredCollisions)) {
     throw UsageError(fmt::format(
         "event loop: {} collisions are more than the limit of {}; use the closed form (--engine "
         "unfolded)",
         readable(count), readable(to_integer(kMaxStoredCollisions))));
   }
-  return std::make_unique<StoredLog>(two_blocks, event_loop(system), event_loop(reversed(system)));
+  return std::make_unique<StoredLog>(system, event_loop(blocks), event_loop(reversed(blocks)));
 }
 
 std::vector<std::string> physics_library_versions() {

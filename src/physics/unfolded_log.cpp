@@ -29,7 +29,7 @@ DoubleDouble steps_from(const Landmark& landmark, const Integer& from, const Int
   return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
 }
 
-ExactMotion checked(const BlockSystem& system) {
+ExactMotion checked(const TwoBlocks& system) {
   ExactMotion motion(system);
   if (std::labs(Real(64, motion.ratio).exponent()) > kMaxRatioExponent) {
     throw UsageError(
@@ -43,8 +43,8 @@ ExactMotion checked(const BlockSystem& system) {
 
 }  // namespace
 
-UnfoldedLog::UnfoldedLog(const TwoBlocks& two_blocks)
-    : CollisionLog(two_blocks), exact_(checked(blocks())), form_(blocks(), exact_) {
+UnfoldedLog::UnfoldedLog(const BodySystem& system)
+    : CollisionLog(system), exact_(checked(blocks())), form_(blocks(), exact_) {
   set_range(form_.first_index, form_.size);
   const bool touches = exact_.y1 == 0 || exact_.y1 == exact_.y2;
   if (touches && !exact_.through_corner()) contact_ = blocks_at(0).count;

@@ -1,5 +1,5 @@
 // The closed form as a collision log: every question costs the same, however many collisions.
-// In: a BlockSystem whose red block is heavier than the blue one. Out: any collision, any state.
+// In: a TwoBlocks whose red block is heavier than the blue one. Out: any collision, any state.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class UnfoldedLog final : public CollisionLog {
  public:
   /// @throws UsageError if the mass ratio is beyond 2^2000.
   /// @throws SimulationError if the blocks pass the corner closer than a double can tell.
-  explicit UnfoldedLog(const TwoBlocks& two_blocks);
+  explicit UnfoldedLog(const BodySystem& system);
 
   Collision blocks_collision(const Integer& index) const override;
   BlockState blocks_at(const Rational& time) const override;

@@ -25,7 +25,7 @@ long unit_exponent(const ExactMotion& exact, const Real& ell, const Real& speed)
 
 }  // namespace
 
-Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
+Unfolding::Unfolding(const TwoBlocks& system, const ExactMotion& exact)
     : turn(exact.turn()), start(exact.start()) {
   const Wedge wedge = exact.wedge(kLandmark_bits);
   first_index = exact.first_index(wedge.past);

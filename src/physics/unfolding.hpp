@@ -133,7 +133,7 @@ struct ClosedForm {
 
 struct Unfolding : ClosedForm {
   /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.
-  Unfolding(const BlockSystem& system, const ExactMotion& exact);
+  Unfolding(const TwoBlocks& system, const ExactMotion& exact);
 
   /// Distance along the line since closest approach, in units of ell and at most kFarAway, for a
   /// line that is not through the corner. @param tau  scaled time since then

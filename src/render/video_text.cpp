@@ -46,7 +46,7 @@ std::string reached(const VideoCount& count) {
   return fmt::format("{} of {}", number, all_collisions(*count.total, count.is_endless));
 }
 
-std::string collision_words(const BlockSystem& system) {
+std::string collision_words(const TwoBlocks& system) {
   if (is_elastic(system)) return "All collisions are elastic";
   return fmt::format(
       "The coefficient of restitution is {} between the blocks and {} between the inner block and "
@@ -166,14 +166,14 @@ VideoCount video_count(const Scene& scene, const Log& log, const Schedule& sched
 std::string title_of(const Scene& scene, const Log& log, const VideoCount& count) {
   if (std::string title = with_single_blanks(scene.show.title); !title.empty()) return title;
   if (!log.pair()) return fmt::format("{}: {}", bodies_of(log.system()), collisions(count.at_end));
-  const BlockSystem& system = log.pair()->blocks();
+  const TwoBlocks& system = log.pair()->blocks();
   return fmt::format("Masses {} and {}: {}", short_text(system.blue.mass),
                      short_text(system.red.mass), all_collisions(*count.total, count.is_endless));
 }
 
 std::string describe_video(const Scene& scene, const Log& log, const VideoCount& count) {
   if (!log.pair()) return describe_bodies(log.system(), count);
-  const BlockSystem& system = log.pair()->blocks();
+  const TwoBlocks& system = log.pair()->blocks();
   const int base = scene.show.base;
   const bool is_infinite = count.is_endless && count.at_end == count.total;
   std::string written =
@@ -190,7 +190,7 @@ std::string describe_video(const Scene& scene, const Log& log, const VideoCount&
       "Two blocks slide along a line without friction: the inner one, beside a wall on the {}, has "
       "mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. {}, and a "
       "counter reaches {}.{}",
-      log.pair()->two_blocks().side > 0 ? "left" : "right", short_text(system.blue.mass),
+      log.pair()->blocks().side > 0 ? "left" : "right", short_text(system.blue.mass),
       short_text(system.red.mass), motion_words(system.blue), motion_words(system.red),
       collision_words(system), reached(count), written);
 }

@@ -5,7 +5,7 @@
 
 namespace piblocks {
 
-std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base) {
+std::optional<unsigned long> places_of_pi(const TwoBlocks& system, int base) {
   const Rational ratio = system.red.mass / system.blue.mass;
   const bool begins_apart = system.blue_gap() > 0;
   if (system.blue.velocity != 0 || system.red.velocity >= 0 || !begins_apart) return std::nullopt;
@@ -17,7 +17,7 @@ std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base) {
   return places;
 }
 
-std::string counted_pi(const BlockSystem& system, const Integer& total, int base) {
+std::string counted_pi(const TwoBlocks& system, const Integer& total, int base) {
   if (!places_of_pi(system, base)) return {};
   const std::string counted = total.get_str(base);
   std::string pi = pi_digits(base, counted.size());

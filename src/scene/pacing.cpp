@@ -29,7 +29,7 @@ constexpr int kTogether = 10;
 
 /// Collisions per second of video at the turn, where each takes theta b/|V| (notation:
 /// src/physics/README.md). Infinite if all happen at once.
-double rate_at_turn(const BlockSystem& system, const Rational& speed) {
+double rate_at_turn(const TwoBlocks& system, const Rational& speed) {
   constexpr mpfr_prec_t kBits = 64;  // squares of velocities can be beyond the range of a double
   const ExactMotion motion(system);
   if (motion.through_corner()) return std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ std::optional<Middle> middle_of_bodies(const Log& log, const Span& span, const R
 }
 
 std::optional<Middle> middle_of_blocks(const CollisionLog& log, const Rational& speed) {
-  const BlockSystem& system = log.blocks();
+  const TwoBlocks& system = log.blocks();
   if (!is_elastic(system)) {
     const auto densest = InelasticMotion(system).densest();
     if (!densest) return std::nullopt;

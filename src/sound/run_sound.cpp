@@ -29,7 +29,8 @@ ClackStream stream_of(const Voice& voice, int rate_hz) {
 /// How far the place where blue meets the wall is from its centre, to the right; 0 of other bodies.
 double to_contact(const Log& log) {
   if (log.pair() == nullptr) return 0;
-  return -log.pair()->two_blocks().side * to_double(log.pair()->blocks().blue.width) / 2;
+  const TwoBlocks& blocks = log.pair()->blocks();
+  return -blocks.side * to_double(blocks.blue.width) / 2;
 }
 
 }  // namespace

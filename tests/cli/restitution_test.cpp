@@ -26,8 +26,8 @@ class RestitutionTest : public CliFixture {
   }
 };
 
-BlockSystem lossy(int digits, const Rational& blocks, const Rational& wall) {
-  BlockSystem system = article_blocks(digits);
+TwoBlocks lossy(int digits, const Rational& blocks, const Rational& wall) {
+  TwoBlocks system = article_blocks(digits);
   system.blocks_restitution = blocks;
   system.wall_restitution = wall;
   return system;
@@ -153,7 +153,7 @@ TEST_F(RestitutionTest, ALogFromTheCornerHasAllThatHappensInIt) {
         "digits = 1\nwall.restitution = 0\nblue.velocity = -1\nred.velocity = -1\n");
   const auto run = oracle::inelastic_run(
       [] {
-        BlockSystem system = lossy(1, 1, 0);
+        TwoBlocks system = lossy(1, 1, 0);
         system.blue.velocity = system.red.velocity = -1;
         return system;
       }(),

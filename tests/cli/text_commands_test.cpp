@@ -117,7 +117,7 @@ TEST_F(TextCommandsTest, CountsAreInTheBaseLogsAreNot) {
 
 TEST_F(TextCommandsTest, StateBoundsItsErrors) {
   for (const int digits : {3, 20}) {
-    const BlockSystem system = article_blocks(digits);
+    const TwoBlocks system = article_blocks(digits);
     for (const char* text : {"0", "2.5", "3.4999999", "3.5", "4", "100/7"}) {
       const std::string state =
           output_of({"state", "--digits", std::to_string(digits), "--at", text, "--bounds"});

@@ -110,7 +110,7 @@ TEST(Panels, UnfoldALineOfAnyLength) {
 }
 
 TEST(Panels, KnowTheWedgeHoweverNarrowOrWide) {
-  BlockSystem system;
+  TwoBlocks system;
   for (const unsigned long exponent : {4UL, 40UL, 400UL, 648UL, 700UL, 4000UL}) {
     system.red.mass = power(10, exponent);
     const GapWedge narrow(system);

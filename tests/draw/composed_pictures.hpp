@@ -48,8 +48,8 @@ struct Pictures {
 struct Drawing {
   explicit Drawing(const Scene& scene)
       : log(make_collision_log(scene.system)),
-        colors(colors_of(scene, &log->two_blocks())),
-        palette(palette_of(scene.view.theme, log->two_blocks(), colors)),
+        colors(colors_of(scene, &log->blocks())),
+        palette(palette_of(scene.view.theme, log->blocks(), colors)),
         sizes(scene.view),
         context{scene,  *log,  palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)),
                 layout, sizes, needs} {}

@@ -174,7 +174,7 @@ TEST(CountCurve, NothingIsEnlargedWithoutNeed) {
   EXPECT_FALSE(enlarged_turn(*log, {{0, 8}, Rational(1, 3), 12, 10}));
   const auto many = make_collision_log(article_system(4));
   EXPECT_FALSE(enlarged_turn(*many, {{5, 8}, Rational(1, 3), 12, 1000})) << "no turn is shown";
-  BlockSystem corner = article_blocks(3);
+  TwoBlocks corner = article_blocks(3);
   corner.blue.position = 4;  // touches red
   corner.blue.velocity = corner.red.velocity;
   const InsetLimits all{{0, 8}, Rational(1, 3), 12, 100};
@@ -203,7 +203,7 @@ TEST(CountPanel, SaysThatHalfComesBeforeTheTurnIfItDoes) {
 /// The present moves through the inset as many times as fast as the inset says.
 TEST(CountPanel, EnlargesTimeAsOftenAsItSays) {
   const Pictures pictures(3, {{"show.panels", "count"}, {"view.size", "1280x720"}});
-  const Rational turn = *turn_of(two_blocks_of(pictures.scene.system)->blocks);
+  const Rational turn = *turn_of(*two_blocks_of(pictures.scene.system));
   const auto dots_at = [&](const Rational& time) { return Shown(pictures.at(time)).discs; };
   EXPECT_EQ(dots_at(1).size(), 1U) << "far from the turn";
   const double scale = (dots_at(2).front().centre.x - dots_at(0).front().centre.x) / 2;
@@ -324,7 +324,7 @@ TEST(CornerPath, CostsNoMoreForMoreCollisions) {
 TEST(PositionPanel, ZoomsWithThePoint) {
   for (const int digits : {2, 5, 20}) {
     const Pictures pictures(digits, {{"show.panels", "position"}, {"view.size", "1280x720"}});
-    const Rational turn = *turn_of(two_blocks_of(pictures.scene.system)->blocks);
+    const Rational turn = *turn_of(*two_blocks_of(pictures.scene.system));
     const Shown far(pictures.at(0));
     EXPECT_FALSE(far.has_text("×10"));
     // The corner at the lower left is where the first line of the wedge begins.
@@ -474,7 +474,7 @@ TEST_P(GraphPanelShapes, FitTheirPlaces) {
                                        {"view.size", GetParam().size},
                                        {"view.theme", theme}});
       const Sizes sizes(pictures.scene.view);
-      const Rational turn = *turn_of(two_blocks_of(pictures.scene.system)->blocks);
+      const Rational turn = *turn_of(*two_blocks_of(pictures.scene.system));
       for (const Rational& time : {Rational(0), Rational(3), turn, Rational(turn + 1)}) {
         const Shown shown(pictures.at(time));
         std::vector<Box> boxes;

@@ -34,7 +34,7 @@ class Frames {
 
   const Scene& scene() const { return scene_; }
   const CollisionLog& log() const { return *log_; }
-  Rational turn() const { return turn_of(two_blocks_of(scene_.system)->blocks).value(); }
+  Rational turn() const { return turn_of(*two_blocks_of(scene_.system)).value(); }
 
   FrameState state(const FrameTime& shown) const {
     return frame_state(*log_, shown, composition_.needs(), 1);

@@ -37,7 +37,7 @@ struct ExactGaps {
   Rational y2;
 };
 
-ExactGaps exact_gaps(const BlockSystem& system, const Rational& time) {
+ExactGaps exact_gaps(const TwoBlocks& system, const Rational& time) {
   const auto state = oracle::high_precision_state(system, time, 1024);
   return {
       state.blue.position - system.blue.width / 2 - system.wall_face,
@@ -49,7 +49,7 @@ void expect_exact(const Frames& frames, const Rational& time, int& plateaus) {
   const DrawList frame = frames.at(time);
   const auto seen = loupe_in(frame);
   ASSERT_TRUE(seen) << to_double(time);
-  const ExactGaps gaps = exact_gaps(two_blocks_of(frames.scene().system)->blocks, time);
+  const ExactGaps gaps = exact_gaps(*two_blocks_of(frames.scene().system), time);
   const double tolerance = 1e-9 * seen->bounds.width;
   const double blue_gap = seen->blue.x - seen->face;
   const double red_gap = seen->red.x - seen->face - seen->blue.width;

@@ -156,7 +156,7 @@ TEST(Theme, BlocksAreCalledByColoursThatTheyHave) {
 TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
   const auto name_of_red = [](Theme theme, const TwoBlocks& blocks, BodyStyle style = {}) {
     Scene scene;
-    scene.system = blocks.system;
+    scene.system = system_of(blocks);
     scene.styles[0] = style;
     scene.view.theme = theme;
     return std::string(palette_of(theme, blocks, colors_of(scene, &blocks)).red.full_name);

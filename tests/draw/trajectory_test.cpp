@@ -15,7 +15,7 @@ struct Traced {
         log(make_collision_log(system)),
         pieces(trajectory_of(*log, wedge, {from, to}, columns)) {}
 
-  BlockSystem system;
+  TwoBlocks system;
   GapWedge wedge;
   std::unique_ptr<CollisionLog> log;
   std::vector<TrajectoryPiece> pieces;

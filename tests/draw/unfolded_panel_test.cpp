@@ -106,7 +106,7 @@ std::optional<PathItem> wedge_of(const DrawList& list) {
 /// its point next to the corner.
 struct Plane {
   explicit Plane(const Pictures& pictures) {
-    const BlockSystem system = two_blocks_of(pictures.scene.system)->blocks;
+    const TwoBlocks system = *two_blocks_of(pictures.scene.system);
     const double sigma = std::sqrt(to_double(system.blue.mass / system.red.mass));
     theta = std::atan(sigma);
     const double y1 = to_double(system.blue_gap());

@@ -23,7 +23,7 @@ struct Distances {
   double closest;
 };
 
-Distances distances(const BlockSystem& s, const oracle::ExactState& state) {
+Distances distances(const TwoBlocks& s, const oracle::ExactState& state) {
   const Rational r = s.blue.mass / s.red.mass;
   const double y1 = to_double(state.blue.position - s.blue.width / 2 - s.wall_face);
   const double y2 = to_double(state.red.position - s.wall_face - s.blue.width - s.red.width / 2);
@@ -37,7 +37,7 @@ Distances distances(const BlockSystem& s, const oracle::ExactState& state) {
 }
 
 /// 8 u (R + ell) and 8 u R, and the rounding of the coordinates.
-PositionBounds a_priori_bounds(const BlockSystem& system, const oracle::ExactState& exact) {
+PositionBounds a_priori_bounds(const TwoBlocks& system, const oracle::ExactState& exact) {
   const Distances d = distances(system, exact);
   const double blue = 2 * std::fabs(to_double(exact.blue.position)) + d.from_corner;
   const double red = 4 * std::fabs(to_double(exact.red.position)) + d.from_corner;
@@ -46,7 +46,7 @@ PositionBounds a_priori_bounds(const BlockSystem& system, const oracle::ExactSta
 }
 
 /// The state is the oracle's, to the bound that the log gives and to ours.
-void expect_accurate(const BlockSystem& system, const CollisionLog& log, const Rational& t) {
+void expect_accurate(const TwoBlocks& system, const CollisionLog& log, const Rational& t) {
   SCOPED_TRACE("t = " + t.get_str());
   const BlockState state = log.blocks_at(t);
   const oracle::ExactState exact = oracle::high_precision_state(system, t);
@@ -69,7 +69,7 @@ void expect_accurate(const BlockSystem& system, const CollisionLog& log, const R
 
 TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
   for (int digits = 1; digits <= 20; ++digits) {
-    const BlockSystem system = article_blocks(digits);
+    const TwoBlocks system = article_blocks(digits);
     const auto log = make_collision_log(system);
     for (const char* text : {"0", "3.5", "4", "6", "3.4999999", "3.50000001", "15"}) {
       const Rational t = parse_rational(text);
@@ -86,7 +86,7 @@ TEST(Accuracy, AtRandomTimes) {
   Random random(314159);
   SCOPED_TRACE(random.trace());
   for (int digits : {1, 2, 3, 5, 9, 12, 17, 25, 40, 100}) {
-    const BlockSystem system = article_blocks(digits);
+    const TwoBlocks system = article_blocks(digits);
     const auto log = make_collision_log(system);
     for (int i = 0; i < 40; ++i) {
       // Half of the times close in on the turning point at every scale.
@@ -103,7 +103,7 @@ TEST(Accuracy, OfRandomSystems) {
   Random random(271828);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 400; ++i) {
-    const BlockSystem system = random_system(random, -8, 25);
+    const TwoBlocks system = random_system(random, -8, 25);
     const auto log = make_collision_log(system);
     EXPECT_EQ(log->last(), oracle::high_precision_total(system));
     for (int j = 0; j < 4; ++j) expect_accurate(system, *log, random.rational(-10, 20, 1000));
@@ -126,7 +126,7 @@ void expect_event(const oracle::ExactEvent& exact, CollisionKind kind, const Tim
 
 TEST(Accuracy, OfTheWholeLog) {
   for (int digits = 1; digits <= 3; ++digits) {
-    const BlockSystem system = article_blocks(digits);
+    const TwoBlocks system = article_blocks(digits);
     const auto log = make_collision_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
     ASSERT_EQ(log->last(), run.size());
@@ -140,7 +140,7 @@ TEST(Accuracy, OfTheWholeLog) {
 
 TEST(Accuracy, OfTheStreamedLog) {
   for (int digits = 1; digits <= 4; ++digits) {
-    const BlockSystem system = article_blocks(digits);
+    const TwoBlocks system = article_blocks(digits);
     const auto log = make_collision_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 4000);
     const auto batch = std::make_unique<CollisionBatch>();
@@ -179,7 +179,7 @@ TEST(Accuracy, NoBoundIsClaimedForAnEngineThatSteps) {
 }
 
 TEST(Accuracy, EnergyAndMomentumAreKept) {
-  const BlockSystem system = article_blocks(7);
+  const TwoBlocks system = article_blocks(7);
   const auto log = make_collision_log(system);
   const double ratio = to_double(system.blue.mass / system.red.mass);
   for (long k = 1; k <= 3141592; k += 10007) {

@@ -23,8 +23,8 @@ struct Start {
   const char* blue_velocity;
   const char* red_velocity;
 
-  BlockSystem system() const {
-    BlockSystem s;
+  TwoBlocks system() const {
+    TwoBlocks s;
     s.blue.mass = 1;
     s.red.mass = parse_rational(ratio);
     s.blue.position = parse_rational(blue_gap) + Rational(1, 2);
@@ -67,7 +67,7 @@ TEST(Count, IsPiTimesTheRootOfTheMassRatioButForAFew) {
   std::erase(digits, '.');
   std::vector<int> exceptions;
   for (int root = 1; root < 113; ++root) {
-    BlockSystem system;
+    TwoBlocks system;
     system.red.mass = root * root;
     if (count_collisions(system) != Integer(digits, 10) * root / scale) exceptions.push_back(root);
   }
@@ -103,7 +103,7 @@ TEST(Count, DoesNotDependOnTheScaleOfVelocitiesAndMasses) {
     EXPECT_EQ(total({"10000", "3/2", "2", "0", speed}), 314) << speed;
   }
   for (const char* unit : {"1e-320", "1e-200", "1e154", "1e300"}) {
-    BlockSystem system = article_blocks(3);
+    TwoBlocks system = article_blocks(3);
     system.blue.mass *= parse_rational(unit);
     system.red.mass *= parse_rational(unit);
     EXPECT_EQ(count_collisions(system), 314) << unit;
@@ -116,7 +116,7 @@ TEST(Count, IsRightAtAndBesideTheExactRatios) {
   EXPECT_EQ(total({"1", "3/2", "2", "0", "-1"}), 3);
   EXPECT_EQ(total({"3", "3/2", "2", "0", "-1"}), 5);
   const auto beside = [](double ratio) {
-    BlockSystem system;
+    TwoBlocks system;
     system.red.mass = Rational(ratio);
     return count_collisions(system);
   };
@@ -197,7 +197,7 @@ TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
         Start{"66096/61", "69/4", "0", "-29/19", "-9/13"}, Start{"7", "0", "2/7", "-1", "-1/3"},
         Start{"100", "1/3", "0", "34/19", "-8/9"}, Start{"31", "56/22", "0", "0", "-1/2"},
         Start{"7", "0", "2/7", "1/3", "-1/3"}, Start{"37", "35/12", "0", "-35", "-3/5"}}) {
-    const BlockSystem system = start.system();
+    const TwoBlocks system = start.system();
     const auto exact = make_collision_log(system);
     const auto log = make_collision_log(system, Engine::events);
     EXPECT_EQ(log->blocks_at(0).count, exact->blocks_at(0).count) << start.ratio;
@@ -279,7 +279,7 @@ TEST(Log, EnginesAgree) {
 // With equal masses the last ray would be parallel to the line; a hair heavier, red lets blue catch
 // up with the wall again, after about 1e90 s.
 TEST(Log, KeepsAHairBetweenTheMasses) {
-  BlockSystem system = article_blocks(1);
+  TwoBlocks system = article_blocks(1);
   system.red.mass = 1 + 1 / power(2, 300);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->last(), 4);
@@ -367,7 +367,7 @@ TEST(Stream, KnowsMirroredAndLightSystems) {
 }
 
 TEST(Log, RefusesInvalidSystems) {
-  BlockSystem overlapping;
+  TwoBlocks overlapping;
   overlapping.red.position = Rational(29, 10);
   EXPECT_THROW(make_collision_log(overlapping), SceneError);
   EXPECT_THROW(count_collisions(overlapping), SceneError);

@@ -140,7 +140,7 @@ TEST(Exposure, OfEveryEngineIsTheSumOfAllFlights) {
   const auto log = make_collision_log(article_blocks(3), Engine::events);
   expect_the_sum_of_all_flights(*log, 0, 10);
   expect_the_sum_of_all_flights(*log, Rational(17, 5), Rational(18, 5));
-  BlockSystem light;
+  TwoBlocks light;
   for (const Rational& mass : {Rational(1), Rational(1, 3), Rational(1, 1000)}) {
     light.red.mass = mass;
     expect_the_sum_of_all_flights(*make_collision_log(light), 0, 100);
@@ -257,7 +257,7 @@ TEST(Exposure, BeforeTimeZeroRunsTheMotionBack) {
   SCOPED_TRACE(random.trace());
   // The turn is 3 before time 0, collisions on both sides of it.
   for (const Rational& mass : {Rational(1, 2), Rational(100), power(100, 6)}) {
-    BlockSystem late;
+    TwoBlocks late;
     late.red.mass = mass;
     late.red.velocity = 1;
     late.blue.velocity = Rational(1, 3);
@@ -301,7 +301,7 @@ TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
 }
 
 TEST(Exposure, OfACornerPassesIt) {
-  BlockSystem system = article_blocks(5);
+  TwoBlocks system = article_blocks(5);
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
   const Rational meeting = log->blocks_collision(1).time.hi;

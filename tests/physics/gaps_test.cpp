@@ -22,7 +22,7 @@ struct ExactGaps {
   Rational y2;
 };
 
-ExactGaps gaps_of(const BlockSystem& s, const Rational& blue, const Rational& red) {
+ExactGaps gaps_of(const TwoBlocks& s, const Rational& blue, const Rational& red) {
   return {blue - s.blue.width / 2 - s.wall_face,
           red - s.wall_face - s.blue.width - s.red.width / 2};
 }
@@ -42,13 +42,13 @@ void expect_close(const Gaps& given, const ExactGaps& wanted) {
   EXPECT_LE(given.y1, given.y2);
 }
 
-void expect_gaps(const BlockSystem& system, const CollisionLog& log, const Rational& time) {
+void expect_gaps(const TwoBlocks& system, const CollisionLog& log, const Rational& time) {
   SCOPED_TRACE("t = " + time.get_str());
   const auto state = oracle::high_precision_state(system, time, kExtraBits);
   expect_close(log.gaps_at(time), gaps_of(system, state.blue.position, state.red.position));
 }
 
-void expect_gaps_at_collision(const BlockSystem& system, const CollisionLog& log,
+void expect_gaps_at_collision(const TwoBlocks& system, const CollisionLog& log,
                               const Integer& index) {
   SCOPED_TRACE("collision " + index.get_str());
   const auto event = oracle::high_precision_collision(system, index, kExtraBits);
@@ -86,7 +86,7 @@ TEST(Gaps, AroundTheTurnAtAnyNumberOfDigits) {
   SCOPED_TRACE(random.trace());
   for (int digits : {1, 2, 3, 4, 5, 6, 7, 9, 12, 15, 17, 20, 40, 100}) {
     SCOPED_TRACE(digits);
-    BlockSystem system = article_blocks(digits);
+    TwoBlocks system = article_blocks(digits);
     // A wall elsewhere takes the digits from positions.
     if (digits % 2 == 0) {
       for (Rational* x : {&system.wall_face, &system.blue.position, &system.red.position}) {
@@ -113,7 +113,7 @@ TEST(Gaps, JustAfterACollision) {
   SCOPED_TRACE(random.trace());
   for (int digits = 1; digits <= 20; ++digits) {
     SCOPED_TRACE(digits);
-    const BlockSystem system = article_blocks(digits);
+    const TwoBlocks system = article_blocks(digits);
     const auto log = make_collision_log(system);
     for (std::int64_t i = 0; i < many(10); ++i) {
       const Integer index = any_index(random, log->last());
@@ -129,7 +129,7 @@ TEST(Gaps, OfRandomSystems) {
   Random random(141421);
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(150); ++i) {
-    const BlockSystem system = random_system(random, -4, 40);
+    const TwoBlocks system = random_system(random, -4, 40);
     const auto log = make_collision_log(system);
     for (int j = 0; j < 4; ++j) expect_gaps(system, *log, random.rational(-10, 20, 1000));
     expect_gaps(system, *log, turn_of(system).value());
@@ -140,7 +140,7 @@ TEST(Gaps, OfRandomSystems) {
 
 TEST(Gaps, BeforeAndAfterTheCorner) {
   // The blocks touch and move to the wall together: all collisions happen at once.
-  BlockSystem system = article_blocks(4);
+  TwoBlocks system = article_blocks(4);
   system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2;
   system.blue.velocity = system.red.velocity;
   const auto log = make_collision_log(system);
@@ -150,7 +150,7 @@ TEST(Gaps, BeforeAndAfterTheCorner) {
 }
 
 TEST(Gaps, OfALightRedBlockAreExact) {
-  BlockSystem system = article_blocks(1);
+  TwoBlocks system = article_blocks(1);
   system.red.mass = Rational(1, 3);
   const auto log = make_collision_log(system);
   for (int i = 0; i < 40; ++i) expect_gaps(system, *log, Rational(i) / 7);
@@ -158,7 +158,7 @@ TEST(Gaps, OfALightRedBlockAreExact) {
 }
 
 TEST(Gaps, OfEnginesThatStepAreDifferencesOfPositions) {
-  const BlockSystem system = article_blocks(3);
+  const TwoBlocks system = article_blocks(3);
   const auto log = make_collision_log(system, Engine::events);
   const auto exact = make_collision_log(system);
   for (int i = 0; i < 200; ++i) {

@@ -58,16 +58,16 @@ Rational time_bound(const Rational& time, const Rational& turn) {
 }
 
 /// At least sqrt(m_red/m_blue).
-Rational root_of_ratio(const BlockSystem& system) {
+Rational root_of_ratio(const TwoBlocks& system) {
   return Rational(sqrt(ceil(system.red.mass / system.blue.mass)) + 1);
 }
 
-BlockSystem random_heavy_system(Random& random) {
+TwoBlocks random_heavy_system(Random& random) {
   const auto hair = [&] {  // 2 to the power of minus up to 2000
     const auto exponent = static_cast<unsigned long>(random.integer(0, 2000));
     return Rational(Rational(random.integer(1, 1000)) / power(2, exponent));
   };
-  BlockSystem system;
+  TwoBlocks system;
   system.blue.mass = random.rational(1, 50, 7);
   system.red.mass =
       system.blue.mass * (1 + power(2, static_cast<unsigned long>(random.integer(0, 1990))) *
@@ -91,11 +91,11 @@ BlockSystem random_heavy_system(Random& random) {
 }
 
 /// |V| or somewhat more.
-Rational speed_of(const BlockSystem& system) {
+Rational speed_of(const TwoBlocks& system) {
   return abs(system.red.velocity) + 2 * abs(system.blue.velocity) / root_of_ratio(system);
 }
 
-void compare(const BlockSystem& system, const oracle::ExactEvent& exact, const Rational& turn,
+void compare(const TwoBlocks& system, const oracle::ExactEvent& exact, const Rational& turn,
              CollisionKind kind, const Rational& time, const Motion& blue, const Motion& red,
              Worst& worst) {
   EXPECT_EQ(kind, exact.kind);
@@ -120,7 +120,7 @@ void compare(const BlockSystem& system, const oracle::ExactEvent& exact, const R
 }
 
 /// Indices of the first, the last, and of those in which the way to compute them may change.
-std::set<Integer> indices_of(Random& random, const BlockSystem& system, const CollisionLog& log) {
+std::set<Integer> indices_of(Random& random, const TwoBlocks& system, const CollisionLog& log) {
   std::set<Integer> result;
   const auto add = [&](const Integer& middle, long reach) {
     for (Integer index = middle - reach; index <= middle + reach; ++index) {
@@ -155,7 +155,7 @@ TEST(HeavyRed, HasEveryCollisionInItsPlace) {
   Worst streamed;
   const auto batch = std::make_unique<CollisionBatch>();
   for (int i = 0; i < 200 && !HasFailure(); ++i) {
-    const BlockSystem system = random_heavy_system(random);
+    const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
                  ", velocities " + system.blue.velocity.get_str() + ", " +
@@ -191,7 +191,7 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
   Random random(299792);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 200 && !testing::Test::HasFailure(); ++i) {
-    const BlockSystem system = random_heavy_system(random);
+    const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
                  ", velocities " + system.blue.velocity.get_str() + ", " +
@@ -217,7 +217,7 @@ TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
   Random random(667408);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 50 && !testing::Test::HasFailure(); ++i) {
-    const BlockSystem system = random_heavy_system(random);
+    const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     const Rational turn = turn_of(system).value();
     const auto log = make_collision_log(system, Engine::unfolded);
@@ -247,7 +247,7 @@ TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
 }
 
 /// The share of [begin, end] in which blue is at most `position`, by the oracle's collisions.
-Rational share_below(const BlockSystem& system, const Rational& begin, const Rational& end,
+Rational share_below(const TwoBlocks& system, const Rational& begin, const Rational& end,
                      const Rational& position) {
   Rational sum;
   Rational now = begin;
@@ -276,7 +276,7 @@ TEST(HeavyRed, IsExposedAsLongAsItIsThere) {
   Random random(160217);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
-    const BlockSystem system = random_heavy_system(random);
+    const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
                  ", velocities " + system.blue.velocity.get_str() + ", " +
@@ -299,7 +299,7 @@ TEST(HeavyRed, IsLeftAnInstantAfterTheTimeInItsLog) {
   Random random(137035);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 20; ++i) {
-    const BlockSystem system = random_heavy_system(random);
+    const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     const Rational turn = turn_of(system).value();
     const auto log = make_collision_log(system, Engine::unfolded);

@@ -25,7 +25,7 @@ struct Moments {
 };
 
 /// Impulses in the unit of Impact: of the velocities just after a collision, which it turned round.
-Moments one_by_one(const BlockSystem& system, const CollisionLog& log, CollisionKind kind,
+Moments one_by_one(const TwoBlocks& system, const CollisionLog& log, CollisionKind kind,
                    const Integer& first, const Integer& last, const Time& since) {
   const double r = to_double(system.blue.mass / system.red.mass);
   Moments sum;
@@ -44,7 +44,7 @@ Moments one_by_one(const BlockSystem& system, const CollisionLog& log, Collision
   return sum;
 }
 
-void expect_sum(const BlockSystem& system, const CollisionLog& log, CollisionKind kind,
+void expect_sum(const TwoBlocks& system, const CollisionLog& log, CollisionKind kind,
                 const Integer& first, const Integer& last) {
   SCOPED_TRACE(first.get_str() + " to " + last.get_str());
   const Time since = first <= last ? log.blocks_collision(first).time : Time{};
@@ -58,8 +58,8 @@ void expect_sum(const BlockSystem& system, const CollisionLog& log, CollisionKin
   EXPECT_NEAR(delay, expected.delay, 1e-12 * (1 + std::fabs(expected.delay)));
 }
 
-std::vector<BlockSystem> systems() {
-  std::vector<BlockSystem> result;
+std::vector<TwoBlocks> systems() {
+  std::vector<TwoBlocks> result;
   for (int digits = 1; digits <= 4; ++digits) result.push_back(article_blocks(digits));
   result.push_back(article_blocks(3));
   result.back().blue.velocity = -1;  // the wall first
@@ -73,7 +73,7 @@ std::vector<BlockSystem> systems() {
 }
 
 TEST(Impact, IsTheSumOfItsCollisionsByEveryEngine) {
-  for (const BlockSystem& system : systems()) {
+  for (const TwoBlocks& system : systems()) {
     SCOPED_TRACE("ratio " + system.red.mass.get_str());
     for (const Engine engine : {Engine::unfolded, Engine::events}) {
       if (corner_of(system) && engine == Engine::events) continue;  // has no order for them
@@ -92,7 +92,7 @@ TEST(Impact, IsTheSumOfItsCollisionsByEveryEngine) {
 }
 
 TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
-  const BlockSystem system = article_blocks(3);
+  const TwoBlocks system = article_blocks(3);
   const auto log = make_collision_log(system);
   for (Integer index = 1; index <= log->last(); ++index) {
     const Collision c = log->blocks_collision(index);
@@ -106,7 +106,7 @@ TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
 }
 
 TEST(Impact, GoesOnBeforeTimeZero) {
-  BlockSystem system = article_blocks(3);
+  TwoBlocks system = article_blocks(3);
   const auto whole = make_collision_log(system);
   // The same run, with time 0 in the middle of it.
   const oracle::ExactState start =
@@ -132,7 +132,7 @@ TEST(Impact, GoesOnBeforeTimeZero) {
 /// What the impulses between two times do to the blocks: red's change of velocity is that of all
 /// the blocks' collisions, the change of momentum is the wall's; and the later they are, the less
 /// far both get.
-void expect_oracles_motion(const BlockSystem& system, const CollisionLog& log, const Rational& from,
+void expect_oracles_motion(const TwoBlocks& system, const CollisionLog& log, const Rational& from,
                            const Rational& to) {
   SCOPED_TRACE(from.get_str() + " to " + to.get_str());
   const auto before = oracle::high_precision_state(system, from);
@@ -169,7 +169,7 @@ void expect_oracles_motion(const BlockSystem& system, const CollisionLog& log, c
 TEST(Impact, DoesToTheBlocksWhatTheOracleSaysAtAnyNumberOfDigits) {
   for (int digits : {2, 5, 9, 20, 60}) {
     SCOPED_TRACE(digits);
-    const BlockSystem system = article_blocks(digits);
+    const TwoBlocks system = article_blocks(digits);
     const auto log = make_collision_log(system);
     expect_oracles_motion(system, *log, 0, 10);
     expect_oracles_motion(system, *log, 3, parse_rational("3.6"));
@@ -192,7 +192,7 @@ TEST(CountNear, IsTheCountButForCollisionsWithinItsRounding) {
 }
 
 TEST(CountNear, IsExactWhereCollisionsAreStored) {
-  BlockSystem system = article_blocks(1);
+  TwoBlocks system = article_blocks(1);
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
     const auto log = make_collision_log(system, engine);  // at 2, 3 and 4
     EXPECT_EQ(log->count_near({1.99, 0}), 0);
@@ -204,7 +204,7 @@ TEST(CountNear, IsExactWhereCollisionsAreStored) {
 }
 
 TEST(CountNear, CountsAllOfACornerAtOnce) {
-  BlockSystem system = article_blocks(3);
+  TwoBlocks system = article_blocks(3);
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
   const Rational corner = corner_of(system)->time;

@@ -11,7 +11,7 @@
 namespace piblocks {
 namespace {
 
-BlockSystem with_restitution(BlockSystem system, const Rational& e) {
+TwoBlocks with_restitution(TwoBlocks system, const Rational& e) {
   system.blocks_restitution = e;
   system.wall_restitution = e;
   return system;
@@ -95,9 +95,9 @@ TEST(LeastRestitution, FollowsTheFormula) {
 }
 
 /// With nothing lost the general form is compared with the elastic one.
-void expect_like_elastic(const BlockSystem& system, const CollisionLog& inelastic, double tolerance,
+void expect_like_elastic(const TwoBlocks& system, const CollisionLog& inelastic, double tolerance,
                          Random& random) {
-  BlockSystem elastic_system = system;
+  TwoBlocks elastic_system = system;
   elastic_system.blocks_restitution = elastic_system.wall_restitution = 1;
   const auto elastic = make_collision_log(elastic_system);
   ASSERT_EQ(inelastic.last(), elastic->last());
@@ -128,10 +128,10 @@ TEST(Restitution, OfOneIsTheClosedForm) {
   Random random(7);
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(60) && !testing::Test::HasFailure(); ++i) {
-    BlockSystem system = random_inelastic_system(random);
+    TwoBlocks system = random_inelastic_system(random);
     system.blocks_restitution = system.wall_restitution = 1;
     SCOPED_TRACE(describe_inelastic(system));
-    expect_like_elastic(system, InelasticLog(*two_blocks_of(system_of(system))), 1e-13, random);
+    expect_like_elastic(system, InelasticLog(system_of(system)), 1e-13, random);
   }
 }
 
@@ -140,17 +140,17 @@ TEST(Restitution, NearOneOfManyDigits) {
   for (const int digits : {1, 5, 12, 20, 40}) {
     SCOPED_TRACE(digits);
     const Rational loss = power(Rational(1, 10), static_cast<unsigned long>(3 * digits));
-    const BlockSystem system = with_restitution(article_blocks(digits), 1 - loss / 1000000);
+    const TwoBlocks system = with_restitution(article_blocks(digits), 1 - loss / 1000000);
     if (digits == 1) continue;  // any loss makes one collision more
     expect_like_elastic(system, *make_collision_log(system), 1e-13, random);
   }
-  const BlockSystem slight = with_restitution(article_blocks(3), 1 - power(Rational(1, 10), 30));
+  const TwoBlocks slight = with_restitution(article_blocks(3), 1 - power(Rational(1, 10), 30));
   expect_like_elastic(slight, *make_collision_log(slight), 1e-13, random);
 }
 
 /// The run of 20 digits that loses a little, where nothing can be stepped: neighbours must fit.
 TEST(Restitution, NeighboursFitAtTwentyDigits) {
-  const BlockSystem system = with_restitution(article_blocks(20), 1 - power(Rational(1, 10), 20));
+  const TwoBlocks system = with_restitution(article_blocks(20), 1 - power(Rational(1, 10), 20));
   const auto log = make_collision_log(system);
   ASSERT_GT(log->last(), count_collisions(article_blocks(20)));
   EXPECT_EQ(log->last(), count_collisions(system));
@@ -175,7 +175,7 @@ TEST(Restitution, NeighboursFitAtTwentyDigits) {
 
 TEST(Restitution, HalfOfEqualMasses) {
   // Worked by hand: (0, -1) -> (-3/4, -1/4) -> (3/8, -1/4) -> (-3/32, 7/32) -> (3/64, 7/32).
-  BlockSystem system = with_restitution(article_blocks(1), Rational(1, 2));
+  TwoBlocks system = with_restitution(article_blocks(1), Rational(1, 2));
   EXPECT_EQ(count_collisions(system), 4);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->blocks_collision(4).blue.velocity, 3.0 / 64);
@@ -183,7 +183,7 @@ TEST(Restitution, HalfOfEqualMasses) {
 }
 
 TEST(Restitution, NoReboundEndsInTheCornerAtOnce) {
-  const BlockSystem system = with_restitution(article_blocks(1), 0);
+  const TwoBlocks system = with_restitution(article_blocks(1), 0);
   const auto collapse = collapse_of(system);
   ASSERT_TRUE(collapse);
   // Red is 2 away from blue, and both go on to the wall, 3/2 away, at half its speed.
@@ -206,7 +206,7 @@ TEST(Restitution, NoReboundEndsInTheCornerAtOnce) {
 /// -6 and -1, the wall being first, are the eigenvector of the lesser: they fall to an eighth in
 /// each round, and flights become four times as long.
 TEST(Restitution, AnEndlessRunMayTakeForever) {
-  BlockSystem system = with_restitution(article_blocks(1), Rational(1, 4));
+  TwoBlocks system = with_restitution(article_blocks(1), Rational(1, 4));
   system.blue.mass = Rational(7, 18);
   system.blue.velocity = -6;
   const auto collapse = collapse_of(system);
@@ -227,18 +227,18 @@ TEST(Restitution, AnEndlessRunMayTakeForever) {
 
 /// Found by the stress test: the wall's place and the gap add up to nothing.
 TEST(Restitution, APositionOfZeroIsZero) {
-  BlockSystem system;
+  TwoBlocks system;
   system.wall_face = -2;
   system.blue = {Rational(7, 3), Rational(13, 18), Rational(-3, 4), 1};
   system.red = {Rational(7, 9), Rational(103, 18), Rational(-3, 4), 1};
-  const BlockSystem inelastic = with_restitution(system, Rational(3, 5));
+  const TwoBlocks inelastic = with_restitution(system, Rational(3, 5));
   EXPECT_EQ(make_collision_log(inelastic)->blocks_collision(2).blue.position, 0);
   Random random(3);
   expect_like_steps(inelastic, random, 40);
 }
 
 TEST(Restitution, StateBeforeTimeZeroIsFree) {
-  const BlockSystem system = with_restitution(article_blocks(2), Rational(1, 2));
+  const TwoBlocks system = with_restitution(article_blocks(2), Rational(1, 2));
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->first_index(), 1);
   const BlockState state = log->blocks_at(-7);
@@ -249,7 +249,7 @@ TEST(Restitution, StateBeforeTimeZeroIsFree) {
 
 /// Sums of many collisions of both kinds against all of them one by one.
 TEST(Restitution, ImpactsAreSums) {
-  const BlockSystem system = with_restitution(article_blocks(4), Rational(999999, 1000000));
+  const TwoBlocks system = with_restitution(article_blocks(4), Rational(999999, 1000000));
   const auto log = make_collision_log(system);
   const double r = to_double(system.blue.mass / system.red.mass);
   for (const auto& [first, last] :
@@ -307,7 +307,7 @@ TEST(Restitution, ExposuresListOrSliceTheFlights) {
 
 TEST(Restitution, RedTurnsAtTheTurn) {
   for (const char* const e : {"0.9", "0.99", "1/2", "0"}) {
-    const BlockSystem system = with_restitution(article_blocks(2), parse_rational(e));
+    const TwoBlocks system = with_restitution(article_blocks(2), parse_rational(e));
     const auto log = make_collision_log(system);
     const auto turn = turn_of(system);
     ASSERT_TRUE(turn);
@@ -318,7 +318,7 @@ TEST(Restitution, RedTurnsAtTheTurn) {
       EXPECT_GE(log->blocks_at(time).red.position, nearest) << e << " " << i;
     }
   }
-  BlockSystem rest = with_restitution(article_blocks(2), Rational(1, 2));
+  TwoBlocks rest = with_restitution(article_blocks(2), Rational(1, 2));
   rest.red.velocity = 0;
   EXPECT_FALSE(turn_of(rest));
   EXPECT_EQ(count_collisions(rest), 0);
@@ -326,7 +326,7 @@ TEST(Restitution, RedTurnsAtTheTurn) {
 
 /// Blue rests at the wall: steps with each order of the first two collisions.
 TEST(Restitution, CornersHaveTwoCounts) {
-  BlockSystem system = with_restitution(article_blocks(2), Rational(99, 100));
+  TwoBlocks system = with_restitution(article_blocks(2), Rational(99, 100));
   system.blue.position = Rational(1, 2);
   const auto corner = corner_of(system);
   ASSERT_TRUE(corner);
@@ -344,7 +344,7 @@ TEST(Restitution, CornersHaveTwoCounts) {
   system.red.velocity = -2;
   const auto slant = corner_of(system);
   ASSERT_TRUE(slant);
-  BlockSystem sooner = system;
+  TwoBlocks sooner = system;
   sooner.blue.position += Rational(1, 1000);
   EXPECT_EQ(slant->count, Integer(oracle::inelastic_run(sooner, 100).events.size()));
   sooner.blue.position -= Rational(2, 1000);
@@ -352,12 +352,12 @@ TEST(Restitution, CornersHaveTwoCounts) {
 }
 
 TEST(Restitution, EnginesThatStepRefuseIt) {
-  const BlockSystem system = with_restitution(article_blocks(2), Rational(1, 2));
+  const TwoBlocks system = with_restitution(article_blocks(2), Rational(1, 2));
   EXPECT_THROW(make_collision_log(system, Engine::events), UsageError);
 }
 
 TEST(Restitution, IsAShare) {
-  BlockSystem system = article_blocks(2);
+  TwoBlocks system = article_blocks(2);
   system.blocks_restitution = Rational(11, 10);
   system.wall_restitution = -1;
   const std::vector<Problem> problems = problems_of(system_of(system));

@@ -37,7 +37,7 @@ std::string count_of(const DrawList& list) {
   return "no counter";
 }
 
-Scene scene_of(const BlockSystem& system) {
+Scene scene_of(const TwoBlocks& system) {
   Scene scene;
   scene.system = system_of(system);
   scene.view.width_px = 64;
@@ -46,8 +46,8 @@ Scene scene_of(const BlockSystem& system) {
   return scene;
 }
 
-BlockSystem system_of_ratio(const Rational& ratio) {
-  BlockSystem system;
+TwoBlocks system_of_ratio(const Rational& ratio) {
+  TwoBlocks system;
   system.red.mass = ratio;
   return system;
 }
@@ -124,7 +124,7 @@ void expect_in_texts(const Scene& scene, const Anchored& at) {
   EXPECT_NE(text.find(last), std::string::npos) << "captions: " << text;
 }
 
-void expect_everywhere(const BlockSystem& system) {
+void expect_everywhere(const TwoBlocks& system) {
   const Scene scene = scene_of(system);
   const auto log = make_collision_log(system);
   SCOPED_TRACE("ratio " + system.red.mass.get_str());
@@ -170,7 +170,7 @@ TEST(CountsShown, AreInTheBaseOfTheScene) {
 }
 
 TEST(CountsShown, AreRightInTimesBeforeZero) {
-  BlockSystem system;
+  TwoBlocks system;
   system.red.velocity = 1;
   const Scene scene = scene_of(system);
   EXPECT_EQ(count_of(still_picture(scene, Instant(Rational(-20)))), "-314");
@@ -214,7 +214,7 @@ TEST(CountsShown, AreRightInWords) {
 
 /// The digits of pi, where the count is made of them.
 TEST(CountsShown, OfPiAreSaidInTexts) {
-  const auto texts = [](const BlockSystem& system, int base) {
+  const auto texts = [](const TwoBlocks& system, int base) {
     Scene scene = scene_of(system);
     scene.show.base = base;
     const auto run = log_of(scene);
@@ -232,9 +232,9 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
     EXPECT_TRUE(alt.ends_with(fmt::format(" The count has {}: {}.", words, pi))) << alt;
   }
   EXPECT_TRUE(texts(article_blocks(100), 10).first.ends_with("the first 100 digits of π\n"));
-  BlockSystem thrown = article_blocks(3);
+  TwoBlocks thrown = article_blocks(3);
   thrown.blue.velocity = Rational(-1, 3);
-  BlockSystem lossy = article_blocks(3);
+  TwoBlocks lossy = article_blocks(3);
   lossy.blocks_restitution = Rational(9999, 10000);
   for (const auto& [system, base] :
        {std::pair{system_of_ratio(50), 10}, {article_blocks(3), 2}, {thrown, 10}, {lossy, 10}}) {
@@ -286,7 +286,7 @@ TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
 
 /// Blocks that lose so much that they never part.
 TEST(CountsShown, InfinitelyManyAreSaidToBe) {
-  BlockSystem system = article_blocks(2);
+  TwoBlocks system = article_blocks(2);
   system.blocks_restitution = system.wall_restitution = Rational(1, 2);
   for (const Theme theme : {Theme::article, Theme::lecture}) {
     Scene scene = scene_of(system);

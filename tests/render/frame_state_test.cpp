@@ -77,7 +77,7 @@ double rate_at(const std::vector<Pass>& passes, const Rational& video_s) {
   return std::min(32.0, 2 / to_double(std::max<Rational>(both_s, video_s - last_s)));
 }
 
-double surface_of(const BlockSystem& system, const Collision& collision) {
+double surface_of(const TwoBlocks& system, const Collision& collision) {
   if (collision.kind == CollisionKind::wall) return to_double(system.wall_face);
   return collision.red.position - to_double(system.red.width / 2);
 }
@@ -93,8 +93,8 @@ struct Seen {
   int still_frames = 0;    ///< frames with hits, in which the picture stands still
 };
 
-void expect_hits(const FrameState& state, const std::vector<Pass>& wanted,
-                 const BlockSystem& system, const Rational& video_s) {
+void expect_hits(const FrameState& state, const std::vector<Pass>& wanted, const TwoBlocks& system,
+                 const Rational& video_s) {
   ASSERT_EQ(state.hits.size(), wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Hit& hit = state.hits[i];
@@ -214,7 +214,7 @@ TEST(Hits, ThatComeEvenlyDoNotComeAndGo) {
     const auto log = make_collision_log(scene.system);
     const Schedule schedule = make_schedule(scene, *log);
     const double rate = to_double(scene.system.bodies[0].velocity[0] /
-                                  (2 + two_blocks_of(scene.system)->blocks.blue_gap()));
+                                  (2 + two_blocks_of(scene.system)->blue_gap()));
     for (std::int64_t frame = 60; frame < 300; ++frame) {
       const FrameState state = state_of(*log, schedule, frame);
       EXPECT_NEAR(state.hits_per_s, rate, rate < 28 ? 1e-6 : 4) << frame;
@@ -235,7 +235,7 @@ TEST(Hits, OfARunThatFollowsAnotherClock) {
   const Scene leading = film_of(2);
   const auto leader = make_collision_log(leading.system);
   const Schedule schedule = make_schedule(leading, *leader);
-  BlockSystem other = article_blocks(1);
+  TwoBlocks other = article_blocks(1);
   other.red.mass = Rational(1, 2);  // the exact list of events
   EXPECT_GT(expect_true_hits(*make_collision_log(other), schedule).hits, 10);
   EXPECT_GT(expect_true_hits(*make_collision_log(article_system(2), Engine::events), schedule).hits,

@@ -53,10 +53,10 @@ TEST(InelasticPacing, FindsTheDensestCollisions) {
   for (const auto& [digits, blocks, wall] : kCases) {
     SCOPED_TRACE(std::string(blocks) + " " + wall);
     const Scene scene = lossy_scene(digits, blocks, wall);
-    const auto run = oracle::inelastic_run(two_blocks_of(scene.system)->blocks, 2000);
+    const auto run = oracle::inelastic_run(*two_blocks_of(scene.system), 2000);
     ASSERT_TRUE(run.ended);
     const Densest expected = densest_of(run.events);
-    const auto found = InelasticMotion(two_blocks_of(scene.system)->blocks).densest();
+    const auto found = InelasticMotion(*two_blocks_of(scene.system)).densest();
     ASSERT_TRUE(found && found->rate);
     const double rate = to_double(expected.rate);
     EXPECT_NEAR(to_double(*found->rate), rate, 0.05 * rate);
@@ -74,7 +74,7 @@ TEST(InelasticPacing, FindsTheDensestCollisionsOfAnySystem) {
   int compared = 0;
   for (int i = 0; i < many(100); ++i) {
     Random random(std::uint64_t(77'000 + i));
-    BlockSystem system = random_system(random, 0, 6);
+    TwoBlocks system = random_system(random, 0, 6);
     const auto least = 1 - 2 * std::sqrt(to_double(Rational(system.blue.mass / system.red.mass)));
     const auto share = [&]() -> Rational {
       return Rational(std::round(random.uniform(std::max(0.01, least), 1) * 1000)) / 1000;
@@ -98,7 +98,7 @@ TEST(InelasticPacing, SlowsDownAsFarAsTheTrueRateAsksFor) {
   for (const auto& [digits, blocks, wall] : kCases) {
     SCOPED_TRACE(std::string(blocks) + " " + wall);
     const Scene scene = lossy_scene(digits, blocks, wall);
-    const auto run = oracle::inelastic_run(two_blocks_of(scene.system)->blocks, 2000);
+    const auto run = oracle::inelastic_run(*two_blocks_of(scene.system), 2000);
     const Schedule schedule = schedule_of(scene);
     expect_no_gaps(schedule);
     const Densest densest = densest_of(run.events);
@@ -116,10 +116,10 @@ TEST(InelasticPacing, SlowsDownAsFarAsTheTrueRateAsksFor) {
 TEST(InelasticPacing, WithHardlyAnyLossItIsThatOfElasticBlocks) {
   for (const int digits : {2, 3, 9, 15}) {
     const Scene scene = lossy_scene(digits, kHardlyLess, "1");
-    const auto found = InelasticMotion(two_blocks_of(scene.system)->blocks).densest();
+    const auto found = InelasticMotion(*two_blocks_of(scene.system)).densest();
     ASSERT_TRUE(found);
     const Scene elastic = lossy_scene(digits, "1", "1");
-    const Rational turn = *turn_of(two_blocks_of(elastic.system)->blocks);
+    const Rational turn = *turn_of(*two_blocks_of(elastic.system));
     const auto slowest = [](const Scene& any) {
       const Schedule schedule = schedule_of(any);
       return std::ranges::max_element(schedule.stretches(), {}, &Stretch::slowdown)->slowdown;
@@ -131,7 +131,7 @@ TEST(InelasticPacing, WithHardlyAnyLossItIsThatOfElasticBlocks) {
 
 TEST(InelasticPacing, TheEndOfInfinitelyManyIsAsSlowAsCanBe) {
   const Scene scene = lossy_scene(2, "0.5", "0.5");
-  const auto collapse = collapse_of(two_blocks_of(scene.system)->blocks);
+  const auto collapse = collapse_of(*two_blocks_of(scene.system));
   ASSERT_TRUE(collapse && collapse->time);
   const Schedule schedule = schedule_of(scene);
   const auto stretches = schedule.stretches();
@@ -144,7 +144,7 @@ TEST(InelasticPacing, TheEndOfInfinitelyManyIsAsSlowAsCanBe) {
 TEST(InelasticPacing, NothingIsDenseWhereNothingHappensTwice) {
   Scene scene = lossy_scene(1, "0.5", "0.5");
   scene.system.bodies[1].velocity[0] = 1;
-  EXPECT_FALSE(InelasticMotion(two_blocks_of(scene.system)->blocks).densest());
+  EXPECT_FALSE(InelasticMotion(*two_blocks_of(scene.system)).densest());
   scene.time.to = Rational(3);
   EXPECT_EQ(schedule_of(scene).stretches().size(), 1 + kStand);
 }

@@ -76,7 +76,7 @@ TEST(Instant, OfTheLastCollisionCountsAllOfThem) {
   Random random(314);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 2000; ++i) {
-    BlockSystem system;
+    TwoBlocks system;
     system.red.mass = random.integer(0, 3) == 0
                           ? Rational(power(10, static_cast<unsigned long>(random.integer(0, 24))))
                           : Rational(random.rational(0, 1000000, 997) + Rational(1, 100));
@@ -100,7 +100,7 @@ TEST(Instant, OfTheFirstCollisionsIsExact) {
 }
 
 TEST(Instant, OfAnEndlesslyLateCollisionIsFound) {
-  BlockSystem system = article_blocks(1);
+  TwoBlocks system = article_blocks(1);
   system.red.mass = 1 + 1 / power(2, 300);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->blocks_at(time_of(Instant::last(), *log)).count, 4);
@@ -110,7 +110,7 @@ TEST(Instant, OfAnEndlesslyLateCollisionIsFound) {
 
 TEST(Instant, KnowsCollisionsBeforeTimeZero) {
   for (const char* ratio : {"10000", "1/2", "1"}) {
-    BlockSystem system;
+    TwoBlocks system;
     system.red.mass = parse_rational(ratio);
     system.red.velocity = 1;
     const auto log = make_collision_log(system);
@@ -127,7 +127,7 @@ TEST(Instant, KnowsCollisionsBeforeTimeZero) {
 }
 
 TEST(Instant, OfACollisionAtTimeZeroIsTimeZero) {
-  BlockSystem system;
+  TwoBlocks system;
   system.blue = {1, parse_rational("2.3"), Rational(1, 10), 1};
   system.red = {1000, parse_rational("3.3"), parse_rational("-0.7"), 1};
   const auto log = make_collision_log(system);
@@ -142,7 +142,7 @@ TEST(Instant, OfACollisionAtTimeZeroIsTimeZero) {
 
 TEST(Instant, OfOneOfManyCollisionsAtOnceIsRefused) {
   for (const char* mass : {"100", "1/2"}) {
-    BlockSystem system;
+    TwoBlocks system;
     system.blue.position = Rational(1, 2);  // at rest on the wall: all collisions happen at once
     system.red.mass = parse_rational(mass);
     const auto log = make_collision_log(system);
@@ -153,7 +153,7 @@ TEST(Instant, OfOneOfManyCollisionsAtOnceIsRefused) {
 }
 
 TEST(Instant, SaysWhatTheSceneHas) {
-  const auto problem = [](const BlockSystem& system, const char* text) {
+  const auto problem = [](const TwoBlocks& system, const char* text) {
     try {
       time_of(parse_instant(text), *make_collision_log(system));
     } catch (const UsageError& error) {
@@ -161,13 +161,13 @@ TEST(Instant, SaysWhatTheSceneHas) {
     }
     return std::string("accepted");
   };
-  BlockSystem resting;
+  TwoBlocks resting;
   resting.red.velocity = 0;
   EXPECT_EQ(problem(resting, "turn"),
             "'turn': there is no turn; only two blocks beside a wall have one, if they move; give "
             "a time");
   EXPECT_EQ(problem(resting, "last"), "'last': no collision happens from time 0 on; give a time");
-  BlockSystem receding = article_blocks(2);
+  TwoBlocks receding = article_blocks(2);
   receding.red.velocity = 1;
   EXPECT_EQ(problem(receding, "last"), "'last': no collision happens from time 0 on; give a time");
   EXPECT_EQ(problem(receding, "#1"), "collision #1: the scene has collisions #-30 to #0");

@@ -26,7 +26,7 @@ TEST_F(SceneFileTest, EmptyFileIsTheArticlesScene) {
   EXPECT_EQ(scene.system.bodies[1].mass.value(), 10000);
   EXPECT_EQ(scene.system.bodies[1].position[0], 5);
   EXPECT_EQ(scene.system.bodies[1].velocity[0], -1);
-  EXPECT_EQ(two_blocks_of(scene.system)->blocks.blue_gap(), Rational(3, 2));
+  EXPECT_EQ(two_blocks_of(scene.system)->blue_gap(), Rational(3, 2));
   EXPECT_EQ(scene.view.x.low, -1);
   EXPECT_EQ(scene.view.x.high, 12);
   EXPECT_EQ(scene.view.width_px, 1920);

@@ -178,7 +178,7 @@ TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
     const Schedule schedule = make_schedule(scene, *log);
     expect_no_gaps(schedule);
     // At the turn, where the video stands in the middle of its slowest stretches.
-    const Rational turn = *turn_of(two_blocks_of(scene.system)->blocks);
+    const Rational turn = *turn_of(*two_blocks_of(scene.system));
     const auto stretches = schedule.stretches();
     const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slowdown);
     const Rational turn_s = slowest->video_s + (turn - slowest->time) / slowest->speed;

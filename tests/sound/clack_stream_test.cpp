@@ -123,7 +123,7 @@ TEST(ClackStream, IsInOrder) {
 }
 
 TEST(ClackStream, HearsWhatHappensInTheFirstFrame) {
-  BlockSystem system = article_blocks(3);
+  TwoBlocks system = article_blocks(3);
   system.red.position = 3;  // touching, and moving in: the blocks meet at time 0
   const auto log = make_collision_log(system);
   ASSERT_EQ(log->blocks_collision(1).time.hi, 0);
@@ -150,7 +150,7 @@ TEST(ClackStream, HearsTheFirstInstantOnceWhicheverWayTheFilmGoesOn) {
 }
 
 TEST(ClackStream, HearsACornerAsOneBlowOfEachKind) {
-  BlockSystem system = article_blocks(3);
+  TwoBlocks system = article_blocks(3);
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
   const std::vector<Clack> clacks = clacks_of(*log, {{0, 0, 1}}, 10);
@@ -162,7 +162,7 @@ TEST(ClackStream, HearsACornerAsOneBlowOfEachKind) {
 }
 
 TEST(ClackStream, HearsWhatWasBeforeTimeZero) {
-  BlockSystem system = article_blocks(1);
+  TwoBlocks system = article_blocks(1);
   system.blue.position = 3;
   system.red.position = 5;
   system.red.velocity = 1;  // they have met at time -1

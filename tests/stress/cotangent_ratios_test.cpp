@@ -31,7 +31,7 @@ TEST(CotangentRatios, AreCountedOnTheRightSide) {
   const auto last = static_cast<unsigned long>(std::min<std::int64_t>(many(400), 8000));
   long above = 0;
   for (unsigned long n = 3; n <= last; ++n) {
-    BlockSystem system;
+    TwoBlocks system;
     system.red.mass = Rational(cotangent_squared(n));
     const Integer total = oracle::high_precision_total(system);
     EXPECT_EQ(count_collisions(system), total) << "n = " << n;
@@ -47,7 +47,7 @@ TEST(CotangentRatios, AreCountedOnTheRightSide) {
 TEST(CotangentRatios, AreMiscountedByPlainDoubles) {
   long wrong = 0;
   for (unsigned long n = 3; n <= 2000; ++n) {
-    BlockSystem system;
+    TwoBlocks system;
     system.red.mass = Rational(cotangent_squared(n));
     const double phase = M_PI / std::atan(std::sqrt(1 / to_double(system.red.mass)));
     if (count_collisions(system) != Integer(std::ceil(phase) - 1)) ++wrong;

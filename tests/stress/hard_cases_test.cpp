@@ -23,8 +23,8 @@ struct HardCase {
   const char* red_velocity;
   long total;
 
-  BlockSystem system() const {
-    BlockSystem s;
+  TwoBlocks system() const {
+    TwoBlocks s;
     s.blue.mass = parse_rational(blue_mass);
     s.red.mass = parse_rational(red_mass);
     s.blue.position = parse_rational(blue_gap) + Rational(1, 2);
@@ -39,21 +39,21 @@ struct HardCase {
 class HardCases : public testing::TestWithParam<HardCase> {};
 
 TEST_P(HardCases, HaveTheirTotal) {
-  const BlockSystem system = GetParam().system();
+  const TwoBlocks system = GetParam().system();
   EXPECT_EQ(count_collisions(system), GetParam().total);
   EXPECT_EQ(make_collision_log(system)->last(), GetParam().total);
   EXPECT_EQ(oracle::high_precision_total(system), GetParam().total);
 }
 
 TEST_P(HardCases, HaveAConsistentLog) {
-  const BlockSystem system = GetParam().system();
+  const TwoBlocks system = GetParam().system();
   const auto log = make_collision_log(system);
   const Bounds bounds(system);
   for (Integer k = 1; k <= log->last(); ++k) expect_consistent(system, *log, k, bounds);
 }
 
 TEST_P(HardCases, AreWhereTheOracleSaysAtHardTimes) {
-  const BlockSystem system = GetParam().system();
+  const TwoBlocks system = GetParam().system();
   const auto log = make_collision_log(system);
   const Bounds bounds(system);
   const bool meets = log->last() > 0;
@@ -69,7 +69,7 @@ TEST_P(HardCases, AreWhereTheOracleSaysAtHardTimes) {
 }
 
 TEST_P(HardCases, CountEveryCollisionAtItsExactTime) {
-  const BlockSystem system = GetParam().system();
+  const TwoBlocks system = GetParam().system();
   const auto log = make_collision_log(system);
   const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
   ASSERT_EQ(log->last(), run.size());
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
                     HardCase{"very far", "1", "10000", "3/2", "1e100", "0", "-1", 314}));
 
 TEST(HardNumbers, DenormalMassesAreTheDoublesTheyAre) {
-  BlockSystem system;
+  TwoBlocks system;
   system.blue.mass = Rational(5e-324);
   system.red.mass = Rational(5e-320);
   EXPECT_EQ(system.red.mass / system.blue.mass, 10120) << "neither is the decimal that was written";
@@ -128,7 +128,7 @@ TEST(HardNumbers, DenormalMassesAreTheDoublesTheyAre) {
 }
 
 TEST(HardNumbers, TimesBeyondADoubleAreAnError) {
-  BlockSystem system;
+  TwoBlocks system;
   system.red.velocity = -Rational(5e-324);  // meets blue after 4e323 units of time
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->last(), 314);

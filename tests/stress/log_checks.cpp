@@ -13,9 +13,9 @@
 namespace piblocks::stress {
 namespace {
 
-Rational mass_ratio(const BlockSystem& system) { return system.blue.mass / system.red.mass; }
+Rational mass_ratio(const TwoBlocks& system) { return system.blue.mass / system.red.mass; }
 
-Rational speed_squared(const BlockSystem& s) {
+Rational speed_squared(const TwoBlocks& s) {
   return mass_ratio(s) * s.blue.velocity * s.blue.velocity + s.red.velocity * s.red.velocity;
 }
 
@@ -52,7 +52,7 @@ Wide root(const Rational& value) {
   return result;
 }
 
-Bounds::Bounds(const BlockSystem& system)
+Bounds::Bounds(const TwoBlocks& system)
     : system_(system),
       sigma_(root(mass_ratio(system))),
       speed_(root(speed_squared(system))),
@@ -89,7 +89,7 @@ Rational Bounds::time(const Rational& time) const {
          Rational(0x1p-1074);
 }
 
-void expect_possible(const BlockSystem& system, const BlockState& state) {
+void expect_possible(const TwoBlocks& system, const BlockState& state) {
   ASSERT_TRUE(std::isfinite(state.blue.position) && std::isfinite(state.blue.velocity) &&
               std::isfinite(state.red.position) && std::isfinite(state.red.velocity))
       << "blue " << state.blue.position << " with " << state.blue.velocity << ", red "
@@ -115,7 +115,7 @@ void expect_energy_kept(const BlockState& state, const Bounds& bounds) {
 namespace {
 
 /// r v_blue + v_red and the relative velocity, before and after a collision of the blocks.
-void expect_momentum_kept(const BlockSystem& system, const CollisionLog& log, const Collision& now,
+void expect_momentum_kept(const TwoBlocks& system, const CollisionLog& log, const Collision& now,
                           const Bounds& bounds) {
   if (now.kind != CollisionKind::blocks) return;
   Wide blue_before = to_double(system.blue.velocity);
@@ -168,7 +168,7 @@ void expect_order(const CollisionLog& log, const Collision& now, const Bounds& b
 
 }  // namespace
 
-void expect_consistent(const BlockSystem& system, const CollisionLog& log, const Integer& index,
+void expect_consistent(const TwoBlocks& system, const CollisionLog& log, const Integer& index,
                        const Bounds& bounds) {
   SCOPED_TRACE("collision " + index.get_str());
   const Collision now = log.blocks_collision(index);
@@ -190,7 +190,7 @@ void expect_consistent(const BlockSystem& system, const CollisionLog& log, const
 /// Beyond those that the ratio of the masses asks for: lengths and velocities differ as much.
 constexpr std::int64_t kOracle_bits = 1000;
 
-void expect_oracles_state(const BlockSystem& system, const CollisionLog& log, const Rational& time,
+void expect_oracles_state(const TwoBlocks& system, const CollisionLog& log, const Rational& time,
                           const Bounds& bounds) {
   const BlockState state = log.blocks_at(time);
   const oracle::ExactState exact = oracle::high_precision_state(system, time, kOracle_bits);

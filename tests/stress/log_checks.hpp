@@ -23,7 +23,7 @@ Wide root(const Rational& value);
 /// the line of motion times m_red/m_blue's root, tc the time of closest approach.
 class Bounds {
  public:
-  explicit Bounds(const BlockSystem& system);
+  explicit Bounds(const TwoBlocks& system);
 
   /// Of a position at `time`: |dy1| <= 8 u (R + ell), |dy2| <= 8 u R, and the coordinates'
   /// rounding.
@@ -44,7 +44,7 @@ class Bounds {
  private:
   Wide distance(const Rational& time) const;
 
-  BlockSystem system_;
+  TwoBlocks system_;
   Wide sigma_;
   Wide speed_;
   Wide ell_;
@@ -52,15 +52,15 @@ class Bounds {
 };
 
 /// Numbers are finite and the blocks in their order.
-void expect_possible(const BlockSystem& system, const BlockState& state);
+void expect_possible(const TwoBlocks& system, const BlockState& state);
 /// The velocities have the energy of the start.
 void expect_energy_kept(const BlockState& state, const Bounds& bounds);
 /// Collision `index` and its neighbours in the log: their order, momentum, and the states just
 /// before, at and between them.
-void expect_consistent(const BlockSystem& system, const CollisionLog& log, const Integer& index,
+void expect_consistent(const TwoBlocks& system, const CollisionLog& log, const Integer& index,
                        const Bounds& bounds);
 /// The state at `time` is the oracle's, to the a-priori bound.
-void expect_oracles_state(const BlockSystem& system, const CollisionLog& log, const Rational& time,
+void expect_oracles_state(const TwoBlocks& system, const CollisionLog& log, const Rational& time,
                           const Bounds& bounds);
 
 }  // namespace piblocks::stress

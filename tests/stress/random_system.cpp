@@ -25,7 +25,7 @@ Rational power_of_two(long exponent) {
   return exponent < 0 ? Rational(1 / power_of) : power_of;
 }
 
-void choose_masses(Random& random, BlockSystem& system) {
+void choose_masses(Random& random, TwoBlocks& system) {
   const auto span = random.integer(0, 5);
   system.blue.mass = span == 0 ? decades(random, -300, 300) : decades(random, -3, 3);
   if (span == 0) {
@@ -44,7 +44,7 @@ void choose_masses(Random& random, BlockSystem& system) {
 }
 
 /// Each choose_…() takes the unit that its numbers are scattered about.
-void choose_places(Random& random, double unit, BlockSystem& system) {
+void choose_places(Random& random, double unit, TwoBlocks& system) {
   const auto length = [&] {
     return one_in(random, 3) ? unit * decades(random, -20, 6) : unit * decades(random, -1, 1);
   };
@@ -56,7 +56,7 @@ void choose_places(Random& random, double unit, BlockSystem& system) {
   system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2 + gap();
 }
 
-void choose_velocities(Random& random, double unit, BlockSystem& system) {
+void choose_velocities(Random& random, double unit, TwoBlocks& system) {
   const auto velocity = [&] {
     const double size = one_in(random, 3) ? decades(random, -10, 6) : decades(random, -1, 1);
     return Rational(sign(random) * unit * size);
@@ -73,7 +73,7 @@ void choose_velocities(Random& random, double unit, BlockSystem& system) {
 }
 
 /// Blue's velocity if it had all the energy.
-Wide greatest_velocity(const BlockSystem& system) {
+Wide greatest_velocity(const TwoBlocks& system) {
   const Wide red_over_blue = root(system.red.mass / system.blue.mass);
   return std::fabs(to_wide(system.blue.velocity)) +
          std::fabs(to_wide(system.red.velocity)) * std::max(red_over_blue, Wide(1));
@@ -81,8 +81,8 @@ Wide greatest_velocity(const BlockSystem& system) {
 
 }  // namespace
 
-BlockSystem random_system(Random& random) {
-  BlockSystem system;
+TwoBlocks random_system(Random& random) {
+  TwoBlocks system;
   choose_masses(random, system);
   choose_places(random, one_in(random, 4) ? decades(random, -80, 80) : 1, system);
   choose_velocities(random, one_in(random, 4) ? decades(random, -100, 100) : 1, system);
@@ -95,10 +95,10 @@ BlockSystem random_system(Random& random) {
   return system;
 }
 
-BlockSystem random_system_of_any_size(Random& random) {
+TwoBlocks random_system_of_any_size(Random& random) {
   constexpr std::array<double, 6> kUnits = {5e-324, 1e-300, 1e-155, 1, 1e155, 1e290};
   const auto unit = [&] { return kUnits[static_cast<std::size_t>(random.integer(0, 5))]; };
-  BlockSystem system;
+  TwoBlocks system;
   do {
     choose_masses(random, system);
     choose_places(random, unit(), system);
@@ -107,7 +107,7 @@ BlockSystem random_system_of_any_size(Random& random) {
   return system;
 }
 
-std::string describe(const BlockSystem& system) {
+std::string describe(const TwoBlocks& system) {
   const auto block = [](const char* name, const Block& b) {
     return fmt::format("{}: mass {}, position {}, velocity {}, width {}", name, to_double(b.mass),
                        to_double(b.position), to_double(b.velocity), to_double(b.width));

@@ -49,13 +49,13 @@ std::vector<Rational> some_times(Random& random, const CollisionLog& log) {
 
 /// Whether there are collisions that no double can place: where the masses are far apart the last
 /// one may be 1e400 s away, because the heavier block is so slow when all is over.
-bool leaves_doubles(const BlockSystem& system) {
+bool leaves_doubles(const TwoBlocks& system) {
   if (system.red.mass > system.blue.mass) {
     const Bounds bounds(system);
     return bounds.last_time() * (1 + bounds.speed()) > 1e290L;
   }
   const Rational limit = Rational(std::numeric_limits<double>::max()) / power(10, 20);
-  for (const BlockSystem& run : {system, oracle::reversed(system)}) {
+  for (const TwoBlocks& run : {system, oracle::reversed(system)}) {
     for (const oracle::ExactEvent& event : oracle::exact_run(run, 16)) {
       for (const Rational& number : {event.time, event.blue.position, event.red.position}) {
         if (abs(number) > limit) return true;
@@ -67,7 +67,7 @@ bool leaves_doubles(const BlockSystem& system) {
 
 /// Calls check(log) for a system that has answers, or is rightly refused one.
 template <typename Check>
-void for_answers(const BlockSystem& system, const Check& check) {
+void for_answers(const TwoBlocks& system, const Check& check) {
   SCOPED_TRACE(describe(system));
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->last(), count_collisions(system));
@@ -78,7 +78,7 @@ void for_answers(const BlockSystem& system, const Check& check) {
   }
 }
 
-void expect_invariants(Random& random, const BlockSystem& system, const CollisionLog& log) {
+void expect_invariants(Random& random, const TwoBlocks& system, const CollisionLog& log) {
   const Bounds bounds(system);
   for (const Integer& index : some_indices(random, log.last())) {
     expect_consistent(system, log, index, bounds);
@@ -94,14 +94,14 @@ void expect_invariants(Random& random, const BlockSystem& system, const Collisio
 
 TEST(RandomSystems, KeepEveryInvariant) {
   for_each_case(5'000, 1'000'000, [](Random& random) {
-    const BlockSystem system = random_system(random);
+    const TwoBlocks system = random_system(random);
     for_answers(system, [&](const CollisionLog& log) { expect_invariants(random, system, log); });
   });
 }
 
 TEST(RandomSystems, HaveTheOraclesTotals) {
   for_each_case(5'000, 2'000'000, [](Random& random) {
-    const BlockSystem system = random_system(random);
+    const TwoBlocks system = random_system(random);
     SCOPED_TRACE(describe(system));
     const Integer total = oracle::high_precision_total(system);
     EXPECT_EQ(count_collisions(system), total);
@@ -111,7 +111,7 @@ TEST(RandomSystems, HaveTheOraclesTotals) {
 
 TEST(RandomSystems, AreWhereTheOracleSays) {
   for_each_case(5'000, 3'000'000, [](Random& random) {
-    const BlockSystem system = random_system(random);
+    const TwoBlocks system = random_system(random);
     for_answers(system, [&](const CollisionLog& log) {
       // One time each: the oracle is slow.
       const std::vector<Rational> times = some_times(random, log);
@@ -126,7 +126,7 @@ TEST(RandomSystems, OfAnySizeGiveFiniteNumbersOrSayWhyNot) {
   constexpr std::int64_t kCases = 500;
   std::int64_t answered = 0;
   for_each_case(kCases, 4'000'000, [&](Random& random) {
-    const BlockSystem system = random_system_of_any_size(random);
+    const TwoBlocks system = random_system_of_any_size(random);
     SCOPED_TRACE(describe(system));
     try {
       expect_invariants(random, system, *make_collision_log(system));
@@ -142,7 +142,7 @@ TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
   constexpr std::int64_t kCases = 500;
   std::int64_t answered = 0;
   for_each_case(kCases, 6'000'000, [&](Random& random) {
-    const BlockSystem system =
+    const TwoBlocks system =
         random.integer(0, 1) == 0 ? random_system(random) : random_system_of_any_size(random);
     SCOPED_TRACE(describe(system));
     if (std::max(count_collisions(system), count_collisions(oracle::reversed(system))) > 1'000) {
@@ -166,7 +166,7 @@ TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
 
 TEST(RandomSystems, BeyondTheClosedFormAreCountedAndRefused) {
   for_each_case(20, 5'000'000, [](Random& random) {
-    BlockSystem system = random_system(random);
+    TwoBlocks system = random_system(random);
     SCOPED_TRACE(describe(system));
     system.red.mass =
         system.blue.mass * power(2, static_cast<unsigned long>(random.integer(2002, 4000)));

@@ -59,7 +59,7 @@ TEST(RestitutionStress, NumbersOfAnySize) {
   Random random(5);
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(200) && !testing::Test::HasFailure(); ++i) {
-    BlockSystem system =
+    TwoBlocks system =
         i % 2 == 0 ? stress::random_system(random) : stress::random_system_of_any_size(random);
     system.blocks_restitution = wild_restitution(random);
     system.wall_restitution = wild_restitution(random);

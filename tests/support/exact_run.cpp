@@ -15,7 +15,7 @@ struct Blocks {
   ExactMotion red;
 };
 
-Blocks start_of(const BlockSystem& system) {
+Blocks start_of(const TwoBlocks& system) {
   return {{system.blue.position, system.blue.velocity}, {system.red.position, system.red.velocity}};
 }
 
@@ -33,7 +33,7 @@ std::optional<Rational> time_to_close(const Rational& gap, const Rational& closi
 }
 
 /// Elastic collision: each velocity is reflected in that of the common centre of mass.
-void exchange_momentum(const BlockSystem& system, Blocks& blocks) {
+void exchange_momentum(const TwoBlocks& system, Blocks& blocks) {
   const Rational& m_blue = system.blue.mass;
   const Rational& m_red = system.red.mass;
   const Rational centre =
@@ -44,14 +44,14 @@ void exchange_momentum(const BlockSystem& system, Blocks& blocks) {
 
 }  // namespace
 
-BlockSystem reversed(const BlockSystem& system) {
-  BlockSystem result = system;
+TwoBlocks reversed(const TwoBlocks& system) {
+  TwoBlocks result = system;
   result.blue.velocity = -system.blue.velocity;
   result.red.velocity = -system.red.velocity;
   return result;
 }
 
-std::vector<ExactEvent> exact_run(const BlockSystem& system, std::int64_t max_events) {
+std::vector<ExactEvent> exact_run(const TwoBlocks& system, std::int64_t max_events) {
   const Rational blue_at_wall = system.wall_face + system.blue.width / 2;
   const Rational contact = (system.blue.width + system.red.width) / 2;
   std::vector<ExactEvent> events;
@@ -80,10 +80,10 @@ std::vector<ExactEvent> exact_run(const BlockSystem& system, std::int64_t max_ev
   }
 }
 
-ExactState exact_state(const BlockSystem& system, const std::vector<ExactEvent>& run,
+ExactState exact_state(const TwoBlocks& system, const std::vector<ExactEvent>& run,
                        const Rational& t, std::int64_t max_events) {
   if (t < 0) {
-    const BlockSystem past = reversed(system);
+    const TwoBlocks past = reversed(system);
     std::vector<ExactEvent> past_run = exact_run(past, max_events);
     // A collision exactly at t has happened at t, so it is not among those still to come.
     std::erase_if(past_run, [&](const ExactEvent& event) { return event.time >= -t; });

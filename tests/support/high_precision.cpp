@@ -44,7 +44,7 @@ Integer to_integer(const Real& whole) {
   return result;
 }
 
-std::int64_t bits_for(const BlockSystem& system, std::int64_t extra_bits) {
+std::int64_t bits_for(const TwoBlocks& system, std::int64_t extra_bits) {
   const Rational ratio = system.red.mass / system.blue.mass;
   const auto log2_of = [](const Integer& n) {
     return static_cast<std::int64_t>(mpz_sizeinbase(n.get_mpz_t(), 2));
@@ -72,7 +72,7 @@ struct PlanePoint {
 /// (k + 1) theta.
 class UnfoldedLine {
  public:
-  explicit UnfoldedLine(const BlockSystem& system)
+  explicit UnfoldedLine(const TwoBlocks& system)
       : system_(system),
         start_{system.blue.position - system.wall_face - system.blue.width / 2,
                system.red.position - system.wall_face - system.blue.width - system.red.width / 2},
@@ -220,7 +220,7 @@ class UnfoldedLine {
     return {odd ? Real(-rotated.x) : rotated.x, rotated.y};
   }
 
-  BlockSystem system_;
+  TwoBlocks system_;
   Gaps start_;
   Gaps speed_;
   Rational swirl_;  // sign and, times sqrt(m_blue m_red), size of the angular momentum
@@ -232,7 +232,7 @@ class UnfoldedLine {
 
 }  // namespace
 
-ExactState high_precision_state(const BlockSystem& system, const Rational& t,
+ExactState high_precision_state(const TwoBlocks& system, const Rational& t,
                                 std::int64_t extra_bits) {
   const PrecisionScope precision(bits_for(system, extra_bits));
   const UnfoldedLine line(system);
@@ -246,13 +246,13 @@ ExactState high_precision_state(const BlockSystem& system, const Rational& t,
   return state;
 }
 
-ExactEvent high_precision_collision(const BlockSystem& system, const Integer& index,
+ExactEvent high_precision_collision(const TwoBlocks& system, const Integer& index,
                                     std::int64_t extra_bits) {
   const PrecisionScope precision(bits_for(system, extra_bits));
   return UnfoldedLine(system).collision(index);
 }
 
-Integer high_precision_total(const BlockSystem& system, std::int64_t extra_bits) {
+Integer high_precision_total(const TwoBlocks& system, std::int64_t extra_bits) {
   const PrecisionScope precision(bits_for(system, extra_bits));
   return UnfoldedLine(system).total();
 }

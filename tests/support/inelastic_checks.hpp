@@ -17,7 +17,7 @@
 
 namespace piblocks {
 
-inline std::string describe_inelastic(const BlockSystem& s) {
+inline std::string describe_inelastic(const TwoBlocks& s) {
   std::string text;
   for (const Rational& value :
        {s.wall_face, s.blue.mass, s.blue.position, s.blue.velocity, s.blue.width, s.red.mass,
@@ -67,8 +67,8 @@ inline Rational random_mass_ratio(Random& random) {
   }
 }
 
-inline BlockSystem random_inelastic_system(Random& random) {
-  BlockSystem system;
+inline TwoBlocks random_inelastic_system(Random& random) {
+  TwoBlocks system;
   const Rational ratio = random_mass_ratio(random);
   system.blue.mass = random.rational(1, 5, 3);
   system.red.mass = system.blue.mass / ratio;
@@ -104,7 +104,7 @@ inline void expect_state(const CollisionLog& log, const Rational& time,
                          const oracle::InelasticRun& run) {
   SCOPED_TRACE("t = " + time.get_str().substr(0, 80));
   const std::size_t count = run.count_at(time);
-  const BlockSystem& system = log.blocks();
+  const TwoBlocks& system = log.blocks();
   Block blue = count == 0 ? system.blue : run.events[count - 1].blue;
   Block red = count == 0 ? system.red : run.events[count - 1].red;
   const Rational since = count == 0 ? Rational(0) : run.events[count - 1].time;
@@ -160,7 +160,7 @@ inline void expect_collision(const CollisionLog& log, const oracle::InelasticRun
 
 /// Impulses of all listed collisions of `run`, of both kinds, against their exact sums.
 inline void expect_impulses(const CollisionLog& log, const oracle::InelasticRun& run) {
-  const BlockSystem& s = log.blocks();
+  const TwoBlocks& s = log.blocks();
   const Rational& m = s.blue.mass;
   const Rational unit = 2 * m * s.red.mass / (m + s.red.mass);
   const Rational speed_squared =
@@ -189,7 +189,7 @@ inline Rational extrapolated(const Rational& a, const Rational& b, const Rationa
 }
 
 /// Times of collisions since they follow each other in even proportions.
-inline void expect_collapse(const BlockSystem& system, const oracle::InelasticRun& run) {
+inline void expect_collapse(const TwoBlocks& system, const oracle::InelasticRun& run) {
   const auto collapse = collapse_of(system);
   ASSERT_TRUE(collapse);
   EXPECT_GT(collapse->listed, 0);
@@ -210,7 +210,7 @@ inline void expect_collapse(const BlockSystem& system, const oracle::InelasticRu
 }
 
 /// Everything about a system whose first collisions, up to `max_events`, can be stepped through.
-inline void expect_like_steps(const BlockSystem& system, Random& random, std::size_t max_events) {
+inline void expect_like_steps(const TwoBlocks& system, Random& random, std::size_t max_events) {
   SCOPED_TRACE(describe_inelastic(system));
   oracle::InelasticRun run = oracle::inelastic_run(system, max_events);
   const auto log = make_collision_log(system);

@@ -1,5 +1,5 @@
 // Blocks that lose energy, stepped from collision to collision in rational numbers.
-// In: a BlockSystem. Out: its first collisions exactly. Shares no formula with the library.
+// In: a TwoBlocks. Out: its first collisions exactly. Shares no formula with the library.
 #pragma once
 
 #include <piblocks/run.hpp>
@@ -31,7 +31,7 @@ struct InelasticRun {
 };
 
 /// Approaching bodies that touch collide at once; of two such pairs the blocks are first.
-inline InelasticRun inelastic_run(const BlockSystem& system, std::size_t max_events) {
+inline InelasticRun inelastic_run(const TwoBlocks& system, std::size_t max_events) {
   const Rational at_wall = system.wall_face + system.blue.width / 2;
   const Rational contact = (system.blue.width + system.red.width) / 2;
   Block blue = system.blue;

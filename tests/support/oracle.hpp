@@ -1,5 +1,5 @@
 // The right answers that tests compare with, by two routes that share nothing with the library.
-// In: a BlockSystem. Out: every collision exactly; or the state at any time from plane geometry.
+// In: a TwoBlocks. Out: every collision exactly; or the state at any time from plane geometry.
 // Slow, and meant to be: clarity and certainty are all that counts here.
 #pragma once
 
@@ -33,18 +33,18 @@ struct ExactState {
 };
 
 /// The same blocks with opposite velocities: its future is the system's past.
-BlockSystem reversed(const BlockSystem& system);
+TwoBlocks reversed(const TwoBlocks& system);
 
 /// All collisions from time 0 on, in rational arithmetic without rounding. Numbers grow with
 /// every collision: some thousand collisions are practical.
 /// If both collisions are due at once, the blocks' is first when the blocks approach; the wall's
 /// when they touch and move to the wall together.
 /// @throws SimulationError if there are more than max_events.
-std::vector<ExactEvent> exact_run(const BlockSystem& system, std::int64_t max_events);
+std::vector<ExactEvent> exact_run(const TwoBlocks& system, std::int64_t max_events);
 
 /// The state at time t, of either sign. `run` is exact_run() of the same system; before time 0 it
 /// is run backwards, with as many events at most as `max_events`.
-ExactState exact_state(const BlockSystem& system, const std::vector<ExactEvent>& run,
+ExactState exact_state(const TwoBlocks& system, const std::vector<ExactEvent>& run,
                        const Rational& t, std::int64_t max_events = 100'000);
 
 /// The state at time t, of either sign, with every error below 2^-200 for systems whose numbers
@@ -55,15 +55,15 @@ ExactState exact_state(const BlockSystem& system, const std::vector<ExactEvent>&
 /// Phases within 2^-(precision/2) of a ray count as on it. Simultaneous collisions (a line through
 /// the corner) are ordered as exact_run() does, in the limit.
 /// @param extra_bits of precision beyond 512 + 4 |log2(m_red / m_blue)|.
-ExactState high_precision_state(const BlockSystem& system, const Rational& t,
+ExactState high_precision_state(const TwoBlocks& system, const Rational& t,
                                 std::int64_t extra_bits = 0);
 
 /// One collision by the same geometry: where the line crosses its ray. For a line that misses the
 /// corner and crosses it. @param index  as in CollisionLog
-ExactEvent high_precision_collision(const BlockSystem& system, const Integer& index,
+ExactEvent high_precision_collision(const TwoBlocks& system, const Integer& index,
                                     std::int64_t extra_bits = 0);
 
 /// Number of collisions from time 0 on, by the same geometry.
-Integer high_precision_total(const BlockSystem& system, std::int64_t extra_bits = 0);
+Integer high_precision_total(const TwoBlocks& system, std::int64_t extra_bits = 0);
 
 }  // namespace piblocks::oracle

@@ -10,21 +10,21 @@ namespace {
 
 constexpr std::int64_t kMaxEvents = 100'000;
 
-BlockSystem blocks_with(const Rational& ratio) {
-  BlockSystem system;
+TwoBlocks blocks_with(const Rational& ratio) {
+  TwoBlocks system;
   system.red.mass = ratio;
   return system;
 }
 
 /// A system with these gaps and velocities, blue's mass 1 and widths 1.
-BlockSystem gap_system(const Rational& ratio, const Rational& wall_gap, const Rational& blocks_gap,
-                       const Rational& u_blue, const Rational& u_red) {
+TwoBlocks gap_system(const Rational& ratio, const Rational& wall_gap, const Rational& blocks_gap,
+                     const Rational& u_blue, const Rational& u_red) {
   const Rational half(1, 2);
   return {0, {1, wall_gap + half, u_blue, 1}, {ratio, wall_gap + 1 + blocks_gap + half, u_red, 1}};
 }
 
-BlockSystem random_system(Random& random) {
-  BlockSystem system;
+TwoBlocks random_system(Random& random) {
+  TwoBlocks system;
   system.wall_face = random.rational(-5, 5, 7);
   system.blue.mass = random.rational(1, 40, 3);
   system.red.mass = random.rational(1, 4000, 5) / random.integer(1, 300);
@@ -48,7 +48,7 @@ void expect_near(const ExactMotion& actual, const ExactMotion& expected, const c
 }
 
 /// Both routes tell the same at time t.
-void expect_agreement(const BlockSystem& system, const std::vector<ExactEvent>& run,
+void expect_agreement(const TwoBlocks& system, const std::vector<ExactEvent>& run,
                       const Rational& t) {
   SCOPED_TRACE("t = " + std::to_string(t.get_d()));
   const ExactState exact = exact_state(system, run, t, kMaxEvents);
@@ -75,7 +75,7 @@ TEST(Oracle, ExactRunOfOneDigitIsTheTextbooks) {
 }
 
 TEST(Oracle, ExactRunConservesEnergyExactly) {
-  const BlockSystem system = blocks_with(100);
+  const TwoBlocks system = blocks_with(100);
   for (const ExactEvent& event : exact_run(system, 100)) {
     EXPECT_EQ(
         event.blue.velocity * event.blue.velocity + 100 * event.red.velocity * event.red.velocity,
@@ -105,7 +105,7 @@ TEST(Oracle, CountsStrictlyWherePiOverThetaIsAnInteger) {
 class ArticleSystem : public testing::TestWithParam<int> {};
 
 TEST_P(ArticleSystem, RoutesAgree) {
-  const BlockSystem system = blocks_with(power(100, static_cast<unsigned long>(GetParam()) - 1));
+  const TwoBlocks system = blocks_with(power(100, static_cast<unsigned long>(GetParam()) - 1));
   const std::vector<ExactEvent> run = exact_run(system, kMaxEvents);
   EXPECT_EQ(high_precision_total(system), static_cast<long>(run.size()));
   const std::size_t stride = run.size() / 150 + 1;
@@ -126,7 +126,7 @@ TEST(Oracle, RoutesAgreeForRandomSystems) {
   SCOPED_TRACE(random.trace());
   for (int trial = 0; trial < 400; ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
-    const BlockSystem system = random_system(random);
+    const TwoBlocks system = random_system(random);
     const std::vector<ExactEvent> run = exact_run(system, kMaxEvents);
     EXPECT_EQ(high_precision_total(system), static_cast<long>(run.size()));
     for (std::size_t k = 0; k + 1 < run.size(); ++k) {
@@ -142,7 +142,7 @@ TEST(Oracle, RoutesAgreeForRandomSystems) {
 // Simultaneous collisions in the wall's corner, and starts in contact.
 TEST(Oracle, RoutesAgreeInTheCorner) {
   struct Case {
-    BlockSystem system;
+    TwoBlocks system;
     int total;
   };
   const std::vector<Case> cases = {

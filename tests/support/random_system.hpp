@@ -11,7 +11,7 @@
 namespace piblocks {
 
 /// Draws all but the masses and red's velocity.
-inline void place_blocks(Random& random, BlockSystem& system) {
+inline void place_blocks(Random& random, TwoBlocks& system) {
   system.wall_face = random.rational(-3, 3, 4);
   system.blue.width = random.rational(1, 3, 5);
   system.red.width = random.rational(1, 3, 5);
@@ -22,8 +22,8 @@ inline void place_blocks(Random& random, BlockSystem& system) {
 }
 
 /// Red moves. @param least_log, most_log  of the mass ratio, to base e
-inline BlockSystem random_system(Random& random, double least_log, double most_log) {
-  BlockSystem system;
+inline TwoBlocks random_system(Random& random, double least_log, double most_log) {
+  TwoBlocks system;
   system.blue.mass = random.rational(1, 50, 7);
   system.red.mass = system.blue.mass * Rational(std::exp(random.uniform(least_log, most_log)));
   place_blocks(random, system);

@@ -29,7 +29,7 @@ constexpr double kMaxInsetHeightRatio = 1.6;
 bool shows_wall(const DrawingContext& context) {
   const auto& [low, high] = context.scene.view.x;
   const Rational& face = context.two_blocks().blocks().wall_face;
-  return context.two_blocks().two_blocks().side > 0 && low <= face && face < high;
+  return context.two_blocks().blocks().side > 0 && low <= face && face < high;
 }
 
 std::optional<Loupe> loupe_of(const Scene& scene) {
@@ -137,7 +137,7 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
 }
 
 LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double least_gap_px)
-    : blocks_(context.two_blocks().two_blocks()),
+    : blocks_(context.two_blocks().blocks()),
       sizes_(context.sizes),
       palette_(context.palette),
       face_(context.font.face()),
@@ -185,8 +185,9 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   const double room =
       floor_px_ - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
   const double taller = std::round(std::min(kBlocksHeight * short_side, room));
-  const double ratio = std::clamp(layout.height_px(blocks_.red) / layout.height_px(blocks_.blue),
-                                  1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
+  const double ratio =
+      std::clamp(layout.height_px(blocks_.red_id) / layout.height_px(blocks_.blue_id),
+                 1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
   blue_height_px_ = std::round(taller / std::max(1.0, ratio));
   red_height_px_ = std::round(taller * std::min(1.0, ratio));
   if (context.scene.show.hits && context.scene.view.theme != Theme::article) {

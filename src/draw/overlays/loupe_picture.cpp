@@ -48,7 +48,7 @@ double LoupeInset::zoom(double gap) const {
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const Rectangle red = stage_.at(blocks_.red, shown);
+  const Rectangle red = stage_.at(blocks_.red_id, shown);
   // By whole pixels, they stay as they are while red hardly moves.
   const Point from{std::round(red.x + kLinesInRed * red.width), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
@@ -99,7 +99,7 @@ void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
                       red_height_px_, palette_.red.line);
   };
   const auto is_of_blocks = [&](const Hit& hit) {
-    return hit.pair[0] == blocks_.red || hit.pair[1] == blocks_.red;
+    return hit.pair[0] == blocks_.red_id || hit.pair[1] == blocks_.red_id;
   };
   for (std::size_t n = 0; n < shown.hits.size(); ++n) {
     const Hit& hit = shown.hits[n];

@@ -57,11 +57,11 @@ class LoupePlacer {
   double blocks_right() const {
     const Layout& layout = context_.layout;
     const Show& show = context_.scene.show;
-    const TwoBlocks& blocks = context_.two_blocks().two_blocks();
-    const double face = layout.at(to_double(blocks.blocks.wall_face), 0).x;
+    const TwoBlocks& blocks = context_.two_blocks().blocks();
+    const double face = layout.at(to_double(blocks.wall_face), 0).x;
     double right =
         face + style::kMaxLoupeGap * short_side() +
-        (layout.shapes[blocks.blue].width + layout.shapes[blocks.red].width) * layout.scale;
+        (layout.shapes[blocks.blue_id].width + layout.shapes[blocks.red_id].width) * layout.scale;
     if (show.has(Overlay::velocities)) right += kVelocityOverhang * short_side();
     if (!labelled_above(context_, layout).empty()) {
       right += kMassOverhang * short_side();

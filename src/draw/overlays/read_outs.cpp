@@ -171,7 +171,7 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
     return fmt::format("Energy{}: {} {} + {} {} = {}", scale.unit, red_name, scale.text(red),
                        blue_name, scale.text(blue), scale.text(both));
   };
-  const TwoBlocks& blocks = context.two_blocks().two_blocks();
+  const TwoBlocks& blocks = context.two_blocks().blocks();
   // A body's velocity if it had all the energy. It may be beyond the range of a double.
   const auto fastest = [&](std::size_t i) {
     return root_of(2 * exact_sum / *system.bodies[i].mass);
@@ -180,9 +180,10 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
     const double share = most > 0 ? mpf_class(body.velocity[0] / most).get_d() : 0;
     return sum * std::min(1.0, share * share);
   };
-  const auto shown_text = [=, inner = blocks.blue, outer = blocks.red,
-                           most_of_blue = fastest(blocks.blue), most_of_red = fastest(blocks.red),
-                           is_kept = is_elastic(blocks.blocks)](const FrameState& shown) {
+  const auto shown_text = [=, inner = blocks.blue_id, outer = blocks.red_id,
+                           most_of_blue = fastest(blocks.blue_id),
+                           most_of_red = fastest(blocks.red_id),
+                           is_kept = is_elastic(blocks)](const FrameState& shown) {
     const double red = energy(shown.state.bodies[outer], most_of_red);
     const double blue = is_kept ? sum - red : energy(shown.state.bodies[inner], most_of_blue);
     return text(red, blue, is_kept ? sum : red + blue);
@@ -202,7 +203,7 @@ class Momenta {
               (scale_.is_plain ? to_double(power_of_ten(scale_.largest.exponent)) : 1)) {
     if (has_names(context)) {
       names_ = {context.palette.blue.name, context.palette.red.name};
-      named_ = {context.two_blocks().two_blocks().blue, context.two_blocks().two_blocks().red};
+      named_ = {context.two_blocks().blocks().blue_id, context.two_blocks().blocks().red_id};
     }
     for (const Body& body : system_.bodies) factors_.push_back(factor_of(body.mass.value_or(0)));
     for (const std::size_t axis : {0U, 1U}) {

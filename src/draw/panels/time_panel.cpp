@@ -142,8 +142,8 @@ class TimePanel {
  public:
   TimePanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of_time(context)),
-        blocks_(context.two_blocks().two_blocks()),
-        wedge_(blocks_.blocks),
+        blocks_(context.two_blocks().blocks()),
+        wedge_(blocks_),
         axis_(context, diagram_, 0) {
     const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));
     const auto pieces = trajectory_of(context.two_blocks(), wedge_, axis_.span(), columns);

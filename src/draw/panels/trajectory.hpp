@@ -17,7 +17,7 @@ namespace piblocks {
 
 /// The wedge 0 <= y1 <= y2 in which the gaps stay, in scaled units.
 struct GapWedge {
-  explicit GapWedge(const BlockSystem& system)
+  explicit GapWedge(const TwoBlocks& system)
       : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
         sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass)).get_d()),

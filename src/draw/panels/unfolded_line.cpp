@@ -27,7 +27,7 @@ constexpr double kFanStep = 0.02;
 
 }  // namespace
 
-StraightLine::StraightLine(const BlockSystem& system) : wedge_(system) {
+StraightLine::StraightLine(const TwoBlocks& system) : wedge_(system) {
   const Rational y1 = system.blue_gap();
   const Rational y2 = y1 + system.blocks_gap();
   const Point start{wedge_.cosine * to_double(y2), wedge_.sine * to_double(y1)};

@@ -17,7 +17,7 @@ namespace piblocks {
 /// plane with axes (sqrt(m) x gap), divided by the root of the sum of both masses.
 class StraightLine {
  public:
-  explicit StraightLine(const BlockSystem& system);
+  explicit StraightLine(const TwoBlocks& system);
 
   /// False if neither block moves: then the line is a point.
   bool moves() const noexcept { return velocity_ != 0; }

@@ -26,7 +26,7 @@ Integer crossings_of(const DrawingContext& context) {
 }
 
 /// The wedge angle in radians: as a unit fraction where that is good to three digits.
-std::string angle_text(const BlockSystem& system) {
+std::string angle_text(const TwoBlocks& system) {
   const GapWedge wedge(system);
   const Rational ratio = system.red.mass / system.blue.mass;
   const Integer root = sqrt(Integer(ratio.get_num()));
@@ -49,7 +49,7 @@ std::string angle_text(const BlockSystem& system) {
 
 std::vector<Formula> unfolded_titles(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
-  const BlockSystem& system = context.two_blocks().blocks();
+  const TwoBlocks& system = context.two_blocks().blocks();
   const Integer count = crossings_of(context);
   const std::string number = count == 0 ? "no" : count_text(count, context.scene.show.base);
   const std::string brief_number = count < 1000000 ? number : short_text(Rational(count));

@@ -23,7 +23,7 @@ constexpr double kOutline = 1.5;
 constexpr double kArcLine = 1.2;
 
 /// Log of the drawn ellipse's axes, blue's over red's: the root of the mass ratio, within limits.
-double log_axes_of(const BlockSystem& system) {
+double log_axes_of(const TwoBlocks& system) {
   const Rational ratio = system.red.mass / system.blue.mass;
   const Rational most = kMostLongEllipse * kMostLongEllipse;
   return rounded::log(to_double(std::clamp<Rational>(ratio, 1 / most, most))) / 2;

@@ -120,7 +120,7 @@ class VelocityLabeller {
         points_(points),
         room_(place) {}
 
-  VelocityLabels run(const BlockSystem& system, const std::vector<double>& angles) {
+  VelocityLabels run(const TwoBlocks& system, const std::vector<double>& angles) {
     add_axis_names();
     if (!points_.moves()) return std::move(made_);
     add_end();
@@ -310,7 +310,7 @@ VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set)
   return {inside, {{inside.x + left + radius, inside.y + above + radius}, radius}, em};
 }
 
-bool is_ellipse_to_scale(const BlockSystem& system) {
+bool is_ellipse_to_scale(const TwoBlocks& system) {
   const Rational ratio = system.red.mass / system.blue.mass;
   const Rational most = kMostLongEllipse * kMostLongEllipse;
   return ratio <= most && ratio >= 1 / most;

@@ -53,7 +53,7 @@ class VelocityPanel {
   VelocityPanel(const DrawingContext& context, const PanelPlace& place,
                 const std::vector<Formula>& titles, bool is_ellipse_first)
       : diagram_(context, place, titles),
-        blocks_(context.two_blocks().two_blocks()),
+        blocks_(context.two_blocks().blocks()),
         points_(context.scene, context.two_blocks()),
         figure_(context, diagram_, points_),
         is_ellipse_first_(is_ellipse_first) {

@@ -11,7 +11,7 @@ namespace piblocks {
 
 VelocityPoints::VelocityPoints(const Scene& scene, const CollisionLog& log)
     : wedge_angle_(GapWedge(log.blocks()).theta), last_(log.last()) {
-  const BlockSystem& system = log.blocks();
+  const TwoBlocks& system = log.blocks();
   const Rational energy = twice_energy(log.system());
   if (energy == 0) return;
   moves_ = true;

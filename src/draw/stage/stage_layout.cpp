@@ -208,7 +208,7 @@ void check_resolution(const View& view, double scale) {
 double reach_px(const DrawingContext& context) {
   const Scene& scene = context.scene;
   const CollisionLog* const log = context.pair();
-  if (log == nullptr || log->two_blocks().side < 0) return HUGE_VAL;
+  if (log == nullptr || log->blocks().side < 0) return HUGE_VAL;
   if (!has_span(scene, *log)) return scene.view.width_px;
   const Span span = span_of(scene, *log);
   // Red comes nearer and nearer, and then goes farther and farther away.

@@ -1,5 +1,5 @@
 // The article's loop: bodies at absolute positions, when two of them touch from a quadratic.
-// In: a BlockSystem. Out: one collision after the other.
+// In: a TwoBlocks. Out: one collision after the other.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ class ArticleLoop {
  public:
   using Scalar = Number;
 
-  explicit ArticleLoop(const BlockSystem& system)
+  explicit ArticleLoop(const TwoBlocks& system)
       : start_(start_of<Scalar>(system)),
         bodies_{{{to_scalar<Scalar>(system.wall_face) - Scalar(0.5), Scalar(0), Scalar(0.5)},
                  {start_.blue, start_.blue_velocity, to_scalar<Scalar>(system.blue.width / 2)},
@@ -48,9 +48,7 @@ class ArticleLoop {
   };
   enum Name : std::size_t { kWall, kBlue, kRed };
 
-  static Rational total_mass(const BlockSystem& system) {
-    return system.blue.mass + system.red.mass;
-  }
+  static Rational total_mass(const TwoBlocks& system) { return system.blue.mass + system.red.mass; }
 
   /// The smaller root of |x + v t| = reach.
   static std::optional<Scalar> meeting(const Body& left, const Body& right) {

@@ -1,8 +1,8 @@
 // Closed forms in any number type: each event and each state by itself, without those before it.
-// In: a BlockSystem in which red comes to meet a resting blue. Out: Methods.
+// In: a TwoBlocks in which red comes to meet a resting blue. Out: Methods.
 //
 // Notation of src/physics/README.md. With blue at rest the phase is 0 in the infinite past and
-// pi/theta in the infinite future. A formula is made from a BlockSystem and has
+// pi/theta in the infinite future. A formula is made from a TwoBlocks and has
 //   Event event(std::int64_t k)    time and positions of collision k
 //   Scalar blue_at(double time)    blue's position
 //   std::int64_t count()           the number of collisions
@@ -26,7 +26,7 @@ class Unfolding {
     Scalar red;
   };
 
-  explicit Unfolding(const BlockSystem& system) {
+  explicit Unfolding(const TwoBlocks& system) {
     const Rational ratio = system.blue.mass / system.red.mass;
     const Rational y1 = system.blue_gap();
     const Rational y2 = y1 + system.blocks_gap();
@@ -154,7 +154,7 @@ class ClosedForm final : public Method {
   using Scalar = typename Formula::Scalar;
   using Method::Method;
 
-  WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
+  WholeLog whole_log(const TwoBlocks& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     const Formula formula(system);
     LogWriter<Scalar> writer(wanted, deadline);
@@ -166,7 +166,7 @@ class ClosedForm final : public Method {
     return writer.finish();
   }
 
-  std::vector<LoggedEvent> single_events(const BlockSystem& system,
+  std::vector<LoggedEvent> single_events(const TwoBlocks& system,
                                          std::span<const std::int64_t> wanted) const override {
     const Formula formula(system);
     std::vector<LoggedEvent> events;
@@ -177,7 +177,7 @@ class ClosedForm final : public Method {
     return events;
   }
 
-  Numbers blue_at(const BlockSystem& system, const Instants& instants,
+  Numbers blue_at(const TwoBlocks& system, const Instants& instants,
                   const Deadline&) const override {
     const Formula formula(system);
     std::vector<Scalar> blue;
@@ -186,7 +186,7 @@ class ClosedForm final : public Method {
     return blue;
   }
 
-  Integer count(const BlockSystem& system, const Deadline&) const override {
+  Integer count(const TwoBlocks& system, const Deadline&) const override {
     return Formula(system).count();
   }
 };

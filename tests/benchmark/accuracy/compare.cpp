@@ -20,7 +20,7 @@ struct Timed {
   double seconds;
 };
 
-Timed timed_log(const Method& method, const BlockSystem& system) {
+Timed timed_log(const Method& method, const TwoBlocks& system) {
   const Deadline none(std::numeric_limits<double>::infinity());
   const double start_s = thread_seconds();
   const std::int64_t events = method.whole_log(system, {}, none).count;
@@ -38,7 +38,7 @@ struct Match {
 };
 
 void run_pair(const Method& program, Match& match) {
-  const BlockSystem system = article_blocks(match.digits);
+  const TwoBlocks system = article_blocks(match.digits);
   const Timed one = timed_log(program, system);
   const Timed other = timed_log(*match.loop, system);
   match.events = one.events;

@@ -72,7 +72,7 @@ int gaps(realtype, N_Vector state, realtype* gap, void* user_data) {
 /// One run of the solver, from collision to collision or to times asked for.
 class Integration {
  public:
-  Integration(const BlockSystem& system, double tolerance)
+  Integration(const TwoBlocks& system, double tolerance)
       : contacts_{to_double(system.wall_face + system.blue.width / 2),
                   to_double((system.blue.width + system.red.width) / 2)},
         blue_share_(to_double(2 * system.red.mass / (system.blue.mass + system.red.mass))),
@@ -140,7 +140,7 @@ class Cvode final : public Method {
       : Method({"CVODE Adams", kScalarName<double>, fmt::format("tol={:.0e}", tolerance)}),
         tolerance_(tolerance) {}
 
-  WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
+  WholeLog whole_log(const TwoBlocks& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     Integration run(system, tolerance_);
     LogWriter<double> writer(wanted, deadline);
@@ -152,7 +152,7 @@ class Cvode final : public Method {
   }
 
   /// Without events the solver would step over them unseen, so they are found here as well.
-  Numbers blue_at(const BlockSystem& system, const Instants& instants,
+  Numbers blue_at(const TwoBlocks& system, const Instants& instants,
                   const Deadline& deadline) const override {
     Integration run(system, tolerance_);
     std::vector<double> blue;
@@ -164,7 +164,7 @@ class Cvode final : public Method {
     return blue;
   }
 
-  Integer count(const BlockSystem& system, const Deadline& deadline) const override {
+  Integer count(const TwoBlocks& system, const Deadline& deadline) const override {
     Integration run(system, tolerance_);
     std::int64_t events = 0;
     for (; run.advance_to(kLastInstant_s); ++events) deadline.check();

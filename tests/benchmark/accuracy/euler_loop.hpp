@@ -1,5 +1,5 @@
 // The physics engine of a game: fixed steps, and a bounce where two bodies are found to overlap.
-// In: a BlockSystem and a step. Out: the bounces until a given time, at the times of their steps.
+// In: a TwoBlocks and a step. Out: the bounces until a given time, at the times of their steps.
 #pragma once
 
 #include "accuracy/event_loop.hpp"
@@ -10,7 +10,7 @@ class EulerLoop {
  public:
   using Scalar = double;
 
-  EulerLoop(const BlockSystem& system, double step_s, double end_s)
+  EulerLoop(const TwoBlocks& system, double step_s, double end_s)
       : step_s_(step_s),
         last_step_(static_cast<std::int64_t>(end_s / step_s)),
         start_(start_of<double>(system)),

@@ -1,7 +1,7 @@
 // Every way of going from collision to collision is a stepper; this makes a Method of it.
 // In: a stepper. Out: its whole log, its positions at given times, its count.
 //
-// A stepper has a number type Stepper::Scalar, is made from a BlockSystem in which red comes to
+// A stepper has a number type Stepper::Scalar, is made from a TwoBlocks in which red comes to
 // meet a resting blue, and has
 //   Flight<Scalar> start()                the motion before the first collision
 //   bool next(Flight<Scalar>& flight)     the motion after the next collision; false at the end
@@ -25,7 +25,7 @@ struct Flight {
 };
 
 template <typename Scalar>
-Flight<Scalar> start_of(const BlockSystem& system) {
+Flight<Scalar> start_of(const TwoBlocks& system) {
   return {Scalar(0), to_scalar<Scalar>(system.blue.position),
           to_scalar<Scalar>(system.red.position), to_scalar<Scalar>(system.blue.velocity),
           to_scalar<Scalar>(system.red.velocity)};
@@ -35,11 +35,11 @@ template <typename Stepper>
 class EventLoop final : public Method {
  public:
   using Scalar = typename Stepper::Scalar;
-  using MakeStepper = std::function<Stepper(const BlockSystem&)>;
+  using MakeStepper = std::function<Stepper(const TwoBlocks&)>;
 
   EventLoop(Label label, MakeStepper make) : Method(std::move(label)), make_(std::move(make)) {}
 
-  WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
+  WholeLog whole_log(const TwoBlocks& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     Stepper stepper = make_(system);
     LogWriter<Scalar> writer(wanted, deadline);
@@ -48,7 +48,7 @@ class EventLoop final : public Method {
     return writer.finish();
   }
 
-  Numbers blue_at(const BlockSystem& system, const Instants& instants,
+  Numbers blue_at(const TwoBlocks& system, const Instants& instants,
                   const Deadline& deadline) const override {
     Stepper stepper = make_(system);
     Flight<Scalar> flight = stepper.start();
@@ -67,7 +67,7 @@ class EventLoop final : public Method {
     return blue;
   }
 
-  Integer count(const BlockSystem& system, const Deadline& deadline) const override {
+  Integer count(const TwoBlocks& system, const Deadline& deadline) const override {
     Stepper stepper = make_(system);
     Flight<Scalar> flight = stepper.start();
     std::int64_t events = 0;
@@ -87,7 +87,7 @@ template <typename Stepper>
 MethodPtr event_loop(const std::string& method, const std::string& parameter = "") {
   return std::make_unique<EventLoop<Stepper>>(
       Label{method, kScalarName<typename Stepper::Scalar>, parameter},
-      [](const BlockSystem& system) { return Stepper(system); });
+      [](const TwoBlocks& system) { return Stepper(system); });
 }
 
 }  // namespace piblocks::benchmark

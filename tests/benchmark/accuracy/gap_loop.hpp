@@ -1,5 +1,5 @@
 // The loop over gaps: no body has a position, only the two gaps and how fast they close.
-// In: a BlockSystem. Out: one collision after the other.
+// In: a TwoBlocks. Out: one collision after the other.
 #pragma once
 
 #include "accuracy/event_loop.hpp"
@@ -11,7 +11,7 @@ class GapLoop {
  public:
   using Scalar = Number;
 
-  explicit GapLoop(const BlockSystem& system)
+  explicit GapLoop(const TwoBlocks& system)
       : start_(start_of<Scalar>(system)),
         blue_corner_(to_scalar<Scalar>(system.wall_face + system.blue.width / 2)),
         contact_distance_(to_scalar<Scalar>((system.blue.width + system.red.width) / 2)),

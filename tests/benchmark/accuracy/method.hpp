@@ -58,21 +58,21 @@ class Method {
 
   /// Computes every event, in order, and keeps those with an index in `wanted`, ascending.
   /// @throws NotRun
-  virtual WholeLog whole_log(const BlockSystem&, std::span<const std::int64_t> /*wanted*/,
+  virtual WholeLog whole_log(const TwoBlocks&, std::span<const std::int64_t> /*wanted*/,
                              const Deadline&) const {
     throw NotRun("not run: has no whole log");
   }
   /// Computes the events of `wanted` alone. Not timed: it shows the errors of logs too long for
   /// the budget. @throws NotRun by default: there is no way but through all events.
-  virtual std::vector<LoggedEvent> single_events(const BlockSystem&,
+  virtual std::vector<LoggedEvent> single_events(const TwoBlocks&,
                                                  std::span<const std::int64_t> /*wanted*/) const {
     throw NotRun("not run: has no random access");
   }
   /// Blue's position at each of the instants, ascending. @throws NotRun
-  virtual Numbers blue_at(const BlockSystem& system, const Instants& instants,
+  virtual Numbers blue_at(const TwoBlocks& system, const Instants& instants,
                           const Deadline& deadline) const = 0;
   /// @throws NotRun
-  virtual Integer count(const BlockSystem& system, const Deadline& deadline) const = 0;
+  virtual Integer count(const TwoBlocks& system, const Deadline& deadline) const = 0;
 
  private:
   Label label_;

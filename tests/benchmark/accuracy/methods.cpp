@@ -19,7 +19,7 @@ namespace {
 MethodPtr euler(double step_s) {
   return std::make_unique<EventLoop<EulerLoop>>(
       Label{"fixed-step Euler", kScalarName<double>, fmt::format("h={:.0e}", step_s)},
-      [step_s](const BlockSystem& system) { return EulerLoop(system, step_s, kLastInstant_s); });
+      [step_s](const TwoBlocks& system) { return EulerLoop(system, step_s, kLastInstant_s); });
 }
 
 }  // namespace

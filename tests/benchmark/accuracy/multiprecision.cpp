@@ -11,7 +11,7 @@ class Multiprecision final : public Method {
 
   bool answers(Question question) const override { return question != Question::whole_log; }
 
-  Numbers blue_at(const BlockSystem& system, const Instants& instants,
+  Numbers blue_at(const TwoBlocks& system, const Instants& instants,
                   const Deadline& deadline) const override {
     std::vector<Reference> blue;
     blue.reserve(instants.exact.size());
@@ -23,7 +23,7 @@ class Multiprecision final : public Method {
     return blue;
   }
 
-  Integer count(const BlockSystem& system, const Deadline&) const override {
+  Integer count(const TwoBlocks& system, const Deadline&) const override {
     return oracle::high_precision_total(system);
   }
 };

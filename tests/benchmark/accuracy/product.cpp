@@ -14,7 +14,7 @@ class Product final : public Method {
  public:
   Product() : Method({"piblocks::CollisionLog", kScalarName<double>, ""}) {}
 
-  WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
+  WholeLog whole_log(const TwoBlocks& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     const auto log = make_collision_log(system);
     const auto stream = log->stream(1, log->last());
@@ -30,7 +30,7 @@ class Product final : public Method {
     return writer.finish();
   }
 
-  std::vector<LoggedEvent> single_events(const BlockSystem& system,
+  std::vector<LoggedEvent> single_events(const TwoBlocks& system,
                                          std::span<const std::int64_t> wanted) const override {
     const auto log = make_collision_log(system);
     std::vector<LoggedEvent> events;
@@ -41,7 +41,7 @@ class Product final : public Method {
     return events;
   }
 
-  Numbers blue_at(const BlockSystem& system, const Instants& instants,
+  Numbers blue_at(const TwoBlocks& system, const Instants& instants,
                   const Deadline&) const override {
     const auto log = make_collision_log(system);
     std::vector<double> blue;
@@ -50,7 +50,7 @@ class Product final : public Method {
     return blue;
   }
 
-  Integer count(const BlockSystem& system, const Deadline&) const override {
+  Integer count(const TwoBlocks& system, const Deadline&) const override {
     return count_collisions(system);
   }
 };

@@ -42,7 +42,7 @@ Rational to_rational(const Reference& value) {
 
 /// Just before the event it has not been counted, just after it it has, and the blocks are in
 /// their places, but for what they move in that little time at a speed of 10^8 at most.
-void check_with_oracle(const BlockSystem& system, const LoggedEvent& event) {
+void check_with_oracle(const TwoBlocks& system, const LoggedEvent& event) {
   const Rational time = to_rational(event.time);
   const Rational little = power(Rational(1, 10), 60);
   const oracle::ExactState before = oracle::high_precision_state(system, time - little);

@@ -12,7 +12,7 @@ namespace piblocks::benchmark {
 
 struct ReferenceRun {
   int digits = 1;
-  BlockSystem system;
+  TwoBlocks system;
   std::int64_t count = 0;
   std::vector<std::int64_t> indices;  ///< of `events`, ascending
   std::vector<LoggedEvent> events;

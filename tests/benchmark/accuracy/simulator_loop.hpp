@@ -1,5 +1,5 @@
 // The program's general engine, EventSimulator, in one dimension.
-// In: a BlockSystem. Out: one collision after the other.
+// In: a TwoBlocks. Out: one collision after the other.
 #pragma once
 
 #include <piblocks/event_simulator.hpp>
@@ -13,7 +13,7 @@ class SimulatorLoop {
  public:
   using Scalar = Number;
 
-  explicit SimulatorLoop(const BlockSystem& system)
+  explicit SimulatorLoop(const TwoBlocks& system)
       : start_(start_of<Scalar>(system)),
         simulator_({body_of(system.blue), body_of(system.red), wall_of(system)}) {}
 
@@ -40,7 +40,7 @@ class SimulatorLoop {
     return body;
   }
 
-  static Body wall_of(const BlockSystem& system) {
+  static Body wall_of(const TwoBlocks& system) {
     Body body;
     body.mass = kInfiniteMass<Scalar>;
     body.radius = Scalar(0.5);

@@ -1,5 +1,5 @@
 // The fastest way from collision to collision, in any number type: only velocities are stepped.
-// In: a BlockSystem. Out: one collision after the other. Notation: src/physics/README.md.
+// In: a TwoBlocks. Out: one collision after the other. Notation: src/physics/README.md.
 //
 // A collision leaves the size of L and P.V as they are. So positions follow from velocities alone,
 // y2 = |L|/|u1| at the wall and y1 = y2 = |L|/|u1 - u2| at contact, and so does the time since the
@@ -16,7 +16,7 @@ class VelocityLoop {
  public:
   using Scalar = Number;
 
-  explicit VelocityLoop(const BlockSystem& system) : VelocityLoop(system, ExactMotion(system)) {}
+  explicit VelocityLoop(const TwoBlocks& system) : VelocityLoop(system, ExactMotion(system)) {}
 
   Flight<Scalar> start() const { return start_; }
 
@@ -29,7 +29,7 @@ class VelocityLoop {
   }
 
  private:
-  VelocityLoop(const BlockSystem& system, const ExactMotion& motion)
+  VelocityLoop(const TwoBlocks& system, const ExactMotion& motion)
       : ratio_(to_scalar<Scalar>(motion.ratio)),
         blue_share_(to_scalar<Scalar>(2 / (1 + motion.ratio))),
         red_share_(to_scalar<Scalar>(2 * motion.ratio / (1 + motion.ratio))),

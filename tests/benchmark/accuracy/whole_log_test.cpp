@@ -34,7 +34,7 @@ void compare(const CollisionBatch& batch, std::size_t row, std::int64_t k,
 class WholeLogOfDigits : public testing::TestWithParam<int> {};
 
 TEST_P(WholeLogOfDigits, HasEveryTimeToFourTimesTenToTheMinusSixteenOfItself) {
-  const BlockSystem system = article_blocks(GetParam());
+  const TwoBlocks system = article_blocks(GetParam());
   const auto log = make_collision_log(system);
   const auto stream = log->stream(1, log->last());
   const auto batch = std::make_unique<CollisionBatch>();

@@ -12,8 +12,8 @@
 namespace piblocks::benchmark {
 namespace {
 
-BlockSystem inelastic_article(int digits) {
-  BlockSystem system = article_blocks(digits);
+TwoBlocks inelastic_article(int digits) {
+  TwoBlocks system = article_blocks(digits);
   system.blocks_restitution = Rational(999'999, 1'000'000);
   system.wall_restitution = system.blocks_restitution;
   return system;
@@ -21,7 +21,7 @@ BlockSystem inelastic_article(int digits) {
 
 /// The times of all collisions, by a loop over the two gaps.
 template <typename Number>
-std::vector<Number> inelastic_loop_times(const BlockSystem& system) {
+std::vector<Number> inelastic_loop_times(const TwoBlocks& system) {
   const auto number = [](const Rational& value) { return to_number<Number>(value); };
   const Number e = number(system.blocks_restitution);
   const Number e_wall = number(system.wall_restitution);
@@ -57,7 +57,7 @@ std::vector<Number> inelastic_loop_times(const BlockSystem& system) {
   }
 }
 
-std::vector<Time> inelastic_log_times(const BlockSystem& system) {
+std::vector<Time> inelastic_log_times(const TwoBlocks& system) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(system);
   const std::unique_ptr<CollisionStream> stream = log->stream(1, log->last());
   const auto batch = std::make_unique<CollisionBatch>();
@@ -76,7 +76,7 @@ double relative_error(const Wide& time, const Wide& right) {
 
 /// In 400 bits. The first ones have to be those of a program in rational numbers, whose numbers
 /// soon are too long.
-Answers right_inelastic_times(const BlockSystem& system) {
+Answers right_inelastic_times(const TwoBlocks& system) {
   Answers right = inelastic_loop_times<Wide>(system);
   constexpr std::size_t kExact = 100;
   const auto exact = oracle::inelastic_run(system, kExact).events;
@@ -100,7 +100,7 @@ std::optional<double> worst_time_error(const Answers& times, const Answers& righ
   return worst;
 }
 
-std::vector<Contestant> restitution_contestants(const BlockSystem& system) {
+std::vector<Contestant> restitution_contestants(const TwoBlocks& system) {
   std::vector<Contestant> all = {contestant("piblocks::CollisionLog",
                                             "MPFR, rounded to two doubles",
                                             [=] { return inelastic_log_times(system); })};
@@ -120,7 +120,7 @@ void print_restitution_table() {
   fmt::print("| Digits | Collisions | Method | Number type | time | time error |\n");
   fmt::print("|---:|---:|---|---|---:|---:|\n");
   for (int digits = 2; digits <= 6; ++digits) {
-    const BlockSystem system = inelastic_article(digits);
+    const TwoBlocks system = inelastic_article(digits);
     const Answers right = right_inelastic_times(system);
     std::vector<Contestant> contestants = restitution_contestants(system);
     time_all(contestants);
