@@ -3,12 +3,8 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/restitution.hpp>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,21 +14,6 @@
 
 namespace piblocks::cli {
 namespace {
-
-static_assert(std::endian::native == std::endian::little && sizeof(long) == 8,
-              "rows are written as they are in memory");
-
-using Kind = std::array<char, 6>;
-static_assert(kRow_bytes == 7 * 8 + sizeof(Kind));
-
-constexpr Kind kWall{'w', 'a', 'l', 'l'};
-constexpr Kind kBlocks{'b', 'l', 'o', 'c', 'k', 's'};
-
-template <typename Value>
-char* put(char* at, const Value& value) {
-  std::memcpy(at, &value, sizeof value);
-  return at + sizeof value;
-}
 
 Integer parse_index(const std::string& text) {
   if (std::optional<Integer> index = whole_number(text)) return *std::move(index);
@@ -62,14 +43,20 @@ Integer first_since(const Log& log, const Bound& bound) {
   return log.first_since(time);
 }
 
+/// Nothing if the option was not given, or is none of this command.
+std::optional<Integer> index_of(const OptionTexts& options, const std::string& option,
+                                const Log& log) {
+  if (!options.is_given(option)) return std::nullopt;
+  const Integer index = *options.value(option, parse_index);
+  if (log.is_listed(index)) return index;
+  throw UsageError(
+      fmt::format("{} {}: the scene has {}", option, readable(index), listed_collisions(log, "")));
+}
+
 Integer first_row(const OptionTexts& options, const Log& log, const std::optional<Bound>& from) {
   Integer since = from ? first_since(log, *from) : Integer(1);
-  const auto first = options.value("--first", parse_index);
+  const auto first = index_of(options, "--first", log);
   if (!first) return since;
-  if (!log.is_listed(*first)) {
-    throw UsageError(
-        fmt::format("--first {}: the scene has {}", readable(*first), listed_collisions(log, "")));
-  }
   return from ? std::max(since, *first) : *first;
 }
 
@@ -78,12 +65,15 @@ Integer first_row(const OptionTexts& options, const Log& log, const std::optiona
 void end_rows(const OptionTexts& options, const Log& log, const std::optional<Rational>& until,
               Rows& rows) {
   const auto parse_limit = [](const std::string& text) { return parse_whole_number(text, 1); };
+  std::optional<Integer> last = index_of(options, "--last", log);
   if (const auto limit = options.value("--limit", parse_limit)) {
-    const Integer last = rows.first + *limit - 1;
-    const bool is_there = log.has(last);
-    const Rational end = is_there ? to_rational(log.collision_time(last)) : Rational(0);
-    if (is_there && (!until || end < *until)) {
-      rows.last = last;
+    const Integer end = rows.first + *limit - 1;
+    last = last ? std::min(*last, end) : end;
+  }
+  if (last && log.has(*last)) {
+    const Rational end = to_rational(log.collision_time(*last));
+    if (!until || end < *until) {
+      rows.last = *last;
       rows.until = end;
       return;
     }
@@ -111,38 +101,6 @@ Rows select_rows(const OptionTexts& options, const Log& log) {
         readable(rows.count()), readable(kMaxRows)));
   }
   return rows;
-}
-
-std::string npy_header(std::string_view row_type, const Rows& rows) {
-  for (const Integer& index : {rows.first, rows.last}) {
-    if (rows.count() == 0 || abs(index) <= to_integer(std::numeric_limits<std::int64_t>::max()))
-      continue;
-    throw UsageError(fmt::format("log: index {} does not fit in 64 bits of npy; use csv or jsonl",
-                                 readable(index)));
-  }
-  constexpr std::size_t kAlignment_bytes = 64;  // of the first row
-  std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}",
-                                 row_type, rows.count().get_str());
-  std::string header("\x93NUMPY\x01\x00", 8);
-  const std::size_t length = header.size() + 2 + text.size() + 1;  // with its own length, and '\n'
-  text.append((kAlignment_bytes - length % kAlignment_bytes) % kAlignment_bytes, ' ');
-  text += '\n';
-  header += static_cast<char>(text.size() % 256);
-  header += static_cast<char>(text.size() / 256);
-  return header + text;
-}
-
-void write_rows(const CollisionBatch& batch, std::int64_t first, char* at) {
-  for (std::size_t i = 0; i < batch.size; ++i) {
-    at = put(at, first + static_cast<std::int64_t>(i));
-    at = put(at, batch.time_hi[i]);
-    at = put(at, batch.time_lo[i]);
-    at = put(at, batch.kind[i] == CollisionKind::wall ? kWall : kBlocks);
-    at = put(at, batch.blue_position[i]);
-    at = put(at, batch.red_position[i]);
-    at = put(at, batch.blue_velocity[i]);
-    at = put(at, batch.red_velocity[i]);
-  }
 }
 
 }  // namespace piblocks::cli

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,33 +15,13 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
-#include "cli/state_text.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "scene/run_log.hpp"
+#include "scene/run_tables.hpp"
 
 namespace piblocks::cli {
 namespace {
-
-void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
-                  const Command& options) {
-  for (const char* const option : {"--engine", "--bounds"}) {
-    if (options.is_given(option)) require_blocks(scene, option);
-  }
-  const std::unique_ptr<Log> run = log_of(scene);
-  const Log& log = *run;
-  TextOutput out("-");
-  Integer last = 0;
-  for (const Instant& instant : instants) {
-    const Rational time = time_of(instant, log);
-    require_certain(scene, log, time);
-    const BodiesState state = log.state_at(time);
-    last = std::max(last, state.count);
-    out.line(state_text(log.system(), time, state));
-  }
-  out.finish();
-  note_ties(log, last);
-}
 
 /// All collisions, or those until --to; of two blocks and a wall all are counted without a log.
 void run_count(const Command& options, const SceneOptions& scene_options) {
@@ -69,17 +50,20 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
 void run_state(const Command& options, const SceneOptions& scene_options) {
   const std::vector<Instant> instants = *options.value("--at", parse_instants);
   const Scene scene = scene_options.scene();
-  if (!has_short_names(scene.system)) return write_bodies(scene, instants, options);
-  const auto log = make_log(scene.system, options);
-  const std::optional<Integer> infinite = infinite_count(*log);
+  const bool has_bounds = options.is_given("--bounds");
+  const Table states = state_table(scene.system, has_bounds);
+  const std::unique_ptr<Log> log = make_log(scene, options);
   TextOutput out("-");
+  Integer last = 0;
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);
-    std::optional<PositionBounds> bounds;
-    if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
-    out.line(state_text(time, log->blocks_at(time), infinite, bounds));
+    require_certain(scene, *log, time);
+    const StateRow state = state_row(*log, time, has_bounds);
+    last = std::max(last, state.count);
+    out.line(state_text(states, state));
   }
   out.finish();
+  note_ties(*log, last);
   note_convention(scene);
 }
 

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/exact.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -49,31 +48,6 @@ void say(fmt::format_string<const Values&...> format, const Values&... values) n
     return;
   }
 }
-
-/// A whole number of any size that counts up, as text, without a division each time.
-class DecimalCounter {
- public:
-  explicit DecimalCounter(const Integer& first) : digits_(first.get_str()) {}
-
-  std::string_view text() const { return digits_; }
-  void increment() {
-    if (digits_.front() == '-') {  // only the rows before time 0
-      digits_ = Integer(Integer(digits_, 10) + 1).get_str();
-      return;
-    }
-    for (auto digit = digits_.rbegin(); digit != digits_.rend(); ++digit) {
-      if (*digit != '9') {
-        ++*digit;
-        return;
-      }
-      *digit = '0';
-    }
-    digits_.insert(0, 1, '1');
-  }
-
- private:
-  std::string digits_;
-};
 
 class TextOutput {
  public:

@@ -10,11 +10,16 @@
 
 namespace piblocks {
 
-std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop) {
+std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop, Engine engine) {
   const bool is_time = scene.time.to.is_time();
   return make_log(
       scene.system,
-      is_time ? std::optional(std::max(scene.time.to.offset, Rational(0))) : std::nullopt, stop);
+      is_time ? std::optional(std::max(scene.time.to.offset, Rational(0))) : std::nullopt, stop,
+      engine);
+}
+
+std::optional<Integer> infinite_count(const Log& log) {
+  return is_endless(log) ? std::optional(log.last()) : std::nullopt;
 }
 
 void require_certain(const Scene& scene, const Log& log, const std::optional<Rational>& time) {
@@ -36,6 +41,36 @@ std::optional<std::string> tie_note(const Log& log, const Integer& last) {
       log.collision_time(*tie).hi);
 }
 
+std::vector<std::string> convention_notes(const Script& script) {
+  std::vector<std::string> notes;
+  for (const Scene* scene : scenes_of(script)) {
+    const std::optional<TwoBlocks> pair = two_blocks_of(scene->system);
+    const auto corner = pair ? corner_of(*pair) : std::nullopt;
+    if (!corner) continue;
+    notes.push_back(fmt::format(
+        "all collisions happen at once, at t = {}, when blue touches both wall and red: by "
+        "convention {}, which makes {} ({} first: {})",
+        to_text(corner->time),
+        corner->blocks_first ? "the blocks meet first" : "blue meets the wall first",
+        readable(corner->count), corner->blocks_first ? "wall" : "blocks",
+        readable(corner->other_count)));
+  }
+  return notes;
+}
+
+std::optional<std::string> endless_note(const Scene& scene) {
+  const std::optional<TwoBlocks> pair = two_blocks_of(scene.system);
+  const std::optional<Collapse> collapse = pair ? collapse_of(*pair) : std::nullopt;
+  if (!collapse) return std::nullopt;
+  const std::string end = collapse->time
+                              ? fmt::format(" until the blocks rest at t = {}", collapse->time->hi)
+                              : std::string(", which never end");
+  return fmt::format(
+      "there are infinitely many collisions{}; the log lists the first {}, and the blocks rest "
+      "from the last of these on",
+      end, readable(collapse->listed));
+}
+
 std::string listed_collisions(const Log& log, const char* mark) {
   const std::string first = mark + readable(log.first_index());
   if (!log.has(log.first_index())) return "no collisions";
@@ -46,8 +81,8 @@ std::string listed_collisions(const Log& log, const char* mark) {
       mark, readable(log.last()));
 }
 
-void require_blocks(const Scene& scene, const char* what) {
-  if (has_short_names(scene.system)) return;
+void require_blocks(const BodySystem& system, const char* what) {
+  if (has_short_names(system)) return;
   throw UsageError(fmt::format(
       "{}: needs two blocks and a fixed wall; leave it out, or leave out [[body]] and wall.mass",
       what));

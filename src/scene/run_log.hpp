@@ -3,18 +3,24 @@
 
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
 
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace piblocks {
 
 /// Nothing is computed yet. Where collisions may never end, those until scene.time.to count, if
 /// that is a time.
-/// @param stop  as make_log(). @throws as make_log()
-std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop = {});
+/// @param stop, engine  as make_log(). @throws as make_log()
+std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop = {},
+                            Engine engine = Engine::unfolded);
+
+/// The index in this log that stands for infinitely many collisions, if one does.
+std::optional<Integer> infinite_count(const Log& log);
 
 /// @param time  nothing for the whole run
 /// @throws UsageError if bodies are not certain until this time, unless the scene allows that.
@@ -24,12 +30,19 @@ void require_certain(const Scene& scene, const Log& log, const std::optional<Rat
 /// two blocks beside something immovable, which have a convention.
 std::optional<std::string> tie_note(const Log& log, const Integer& last);
 
+/// Which of two equally good counts is shown, if all collisions of a run happen at once: their
+/// number then depends on a convention. A line for each such run.
+std::vector<std::string> convention_notes(const Script& script);
+
+/// How far the log of a run of infinitely many collisions goes; nothing for other scenes.
+std::optional<std::string> endless_note(const Scene& scene);
+
 /// Which collisions the log lists: "no collisions", "collisions #1 to #31".
 /// @param mark  before each number
 std::string listed_collisions(const Log& log, const char* mark);
 
 /// @param what  in the message: an option
-/// @throws UsageError if the scene has bodies: only two blocks and a wall can be shown that way.
-void require_blocks(const Scene& scene, const char* what);
+/// @throws UsageError unless the bodies are blue, red and a wall.
+void require_blocks(const BodySystem& system, const char* what);
 
 }  // namespace piblocks

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/script_facts.hpp"
 #include "cli/shipped_scenes.hpp"
 #include "core/text.hpp"
 #include "scene/run_log.hpp"
@@ -105,7 +104,7 @@ std::string keys_json(const Scene& scene, bool of_film) {
 }
 
 std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
-  std::vector<std::string> notes = cli::convention_notes(scene);
+  std::vector<std::string> notes = convention_notes(scene);
   const Log& log = run.log();
   const Integer last = has_span(scene, log) ? log.count_at(span_of(scene, log).to) : Integer(0);
   if (auto note = tie_note(log, last)) notes.push_back(*std::move(note));

@@ -6,11 +6,10 @@
 #include <cstring>
 #include <utility>
 
-#include "cli/script_facts.hpp"
-#include "cli/state_text.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "physics/blocks.hpp"
 #include "scene/run_log.hpp"
+#include "scene/run_tables.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks::web {
@@ -124,7 +123,7 @@ std::optional<LiveScript::Place> LiveScript::collision_beside(const Place& place
   const Log& log = run()->log();
   const Rational time = time_of(place.instant, log);
   const Integer count = log.count_at(time);
-  if (cli::infinite_count(log) == count) return std::nullopt;
+  if (infinite_count(log) == count) return std::nullopt;
   const bool is_at_collision =
       count >= log.first_index() && time_of(Instant::collision(count), log) == time;
   Integer index = step > 0 ? count + 1 : is_at_collision ? count - 1 : count;
@@ -163,11 +162,9 @@ DrawList LiveScript::picture(const Place& place) const {
 
 std::optional<std::string> LiveScript::state(const Place& place) const {
   if (run() == nullptr) return std::nullopt;
-  const Rational time = time_of(place.instant, run()->log());
   const Log& log = run()->log();
-  if (!has_short_names(run()->scene().system))
-    return cli::state_text(log.system(), time, log.state_at(time));
-  return cli::state_text(time, log.pair()->blocks_at(time), cli::infinite_count(log));
+  const StateRow row = state_row(log, time_of(place.instant, log), false);
+  return state_text(state_table(log.system(), false), row);
 }
 
 LiveSound::LiveSound(const Script& script) : film_(script, {FilmUse::audio_only}) {}

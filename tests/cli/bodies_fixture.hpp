@@ -1,11 +1,8 @@
 // What tests of scenes with bodies share.
-// In: nothing. Out: a folder with three scenes, the names of those of the program, a Python.
+// In: nothing. Out: a folder with three scenes, the names of those of the program.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -60,19 +57,6 @@ class BodiesCli : public CliFixture {
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err, "piblocks: " + line + "\n");
     EXPECT_EQ(entries(), before);
-  }
-  bool python(const std::string& interpreter, const std::string& program) const {
-    write("program.py", program);
-    const std::string command = fmt::format("cd '{}' && {} program.py >python.txt 2>&1",
-                                            folder_.path().string(), interpreter);
-    return std::system(command.c_str()) == 0;
-  }
-  /// A Python that has this module; empty if there is none.
-  std::string python_with(const std::string& module) const {
-    for (const char* interpreter : {"python3", "/usr/bin/python3"}) {
-      if (python(interpreter, "import " + module)) return interpreter;
-    }
-    return {};
   }
   std::string first_line_of(const Arguments& arguments) const {
     return lines(output_of(arguments)).front();

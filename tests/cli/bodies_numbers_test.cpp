@@ -8,27 +8,6 @@
 namespace piblocks {
 namespace {
 
-TEST_F(BodiesCli, LogsOfBlocksAreExact) {
-  EXPECT_EQ(output_of({"log", "meeting.toml"}),
-            "index,time,first,second,x_first,x_second,v_first,v_second\n"
-            "1,3,1,2,3,4,-0.5,0.5\n"
-            "2,47,1,3,-19,-20,0,-0.5\n");
-}
-
-TEST_F(BodiesCli, LogsOfDiscsHaveTwoCoordinates) {
-  write("discs.toml",
-        "[box]\nx = ['-inf', 8]\ny = [-3, 'inf']\n"
-        "[[body]]\nposition = [0, 0]\nvelocity = [1, 0]\n"
-        "[[body]]\nmass = 3\nposition = [4, 0]\n"
-        "[[body]]\nposition = [-4, -1]\nvelocity = [0, -1]\n[time]\nto = 7\n");
-  EXPECT_EQ(output_of({"log", "discs.toml"}),
-            "index,time,first,second,x_first,y_first,x_second,y_second,vx_first,vy_first,"
-            "vx_second,vy_second\n"
-            "1,1,3,lower,-4,-2,0,-3,0,1,0,0\n"
-            "2,2,1,2,2,0,4,0,-0.5,0,0.5,0\n"
-            "3,8,2,right,7,0,8,0,-0.5,0,0,0\n");
-}
-
 TEST_F(BodiesCli, SayWhenTheOrderOfPairsDecides) {
   write("tie.toml",
         "[[body]]\nposition = 0\nvelocity = 1\n[[body]]\nposition = 3\n[[body]]\nposition = 6\n"
@@ -148,82 +127,6 @@ TEST_F(BodiesCli, StatesAreExactAndInOrder) {
       "a time");
   expect_line({"state", "meeting.toml", "--at", "#3"},
               "collision #3: the scene has collisions #1 to #2");
-}
-
-TEST_F(BodiesCli, StatesAreJson) {
-  const std::string interpreter = python_with("json");
-  if (interpreter.empty()) GTEST_SKIP() << "no python3 here";
-  for (const char* scene : kBodyScenes) {
-    output_of({"log", scene, "--format", "jsonl", "-o", "log.jsonl"});
-    output_of({"log", scene, "-o", "log.csv"});
-    write("state.json", output_of({"state", scene, "--at", "0,1,last"}));
-    EXPECT_TRUE(python(interpreter, R"(
-import csv, json
-log = [json.loads(line) for line in open('log.jsonl')]
-rows = list(csv.DictReader(open('log.csv')))
-states = [json.loads(line) for line in open('state.json')]
-assert len(log) == len(rows) and len(states) == 3
-assert len({len(state['bodies']) for state in states}) == 1
-def flat(value):
-    return value if isinstance(value, list) else [value]
-for row, line in zip(rows, log):
-    assert row['index'] == line['index'] and float(row['time']) == line['time'], row
-    assert row['first'] == str(line['first']) and row['second'] == str(line['second']), row
-    for side in ('first', 'second'):
-        motion = line[side + '_after']
-        names = ['x_', 'y_'] if 'y_first' in row else ['x_']
-        assert [float(row[name + side]) for name in names] == flat(motion['position']), row
-        names = ['vx_', 'vy_'] if 'y_first' in row else ['v_']
-        assert [float(row[name + side]) for name in names] == flat(motion['velocity']), row
-last = states[-1]
-assert last['collisions'] == log[-1]['index'] and last['time'] == log[-1]['time']
-def near(a, b):
-    return all(abs(x - y) < 1e-9 for x, y in zip(flat(a), flat(b), strict=True))
-# The bodies are in the order of the file: the last collision is found by its numbers.
-for side in ('first', 'second'):
-    if isinstance(log[-1][side], int):
-        body = last['bodies'][log[-1][side] - 1]
-        for name in ('position', 'velocity'):
-            assert near(body[name], log[-1][side + '_after'][name]), (body, log[-1])
-)")) << scene
-     << ": " << contents("python.txt");
-  }
-}
-
-TEST_F(BodiesCli, NumpyLoadsWhatCsvSays) {
-  const std::string interpreter = python_with("numpy");
-  if (interpreter.empty()) GTEST_SKIP() << "no python3 with numpy here";
-  for (const char* scene : {"three-blocks", "recoil", "billiard", "wedge"}) {
-    output_of({"log", scene, "--format", "npy", "-o", "log.npy"});
-    output_of({"log", scene, "-o", "log.csv"});
-    EXPECT_TRUE(python(interpreter, R"(
-import csv, numpy
-log = numpy.load('log.npy')
-rows = list(csv.DictReader(open('log.csv')))
-assert log.shape == (len(rows),) and len(rows) > 20
-walls = {}
-for row, line in zip(rows, log):
-    assert int(row['index']) == line['index'] and float(row['time']) == line['time'], row
-    assert abs(line['time_low']) <= numpy.spacing(line['time']), row
-    assert int(row['first']) == line['first'], row
-    if row['second'].isdigit():
-        assert int(row['second']) == line['second'], row
-    else:
-        assert line['second'] < 0 and walls.setdefault(row['second'], line['second']) == line['second']
-    for side in ('first', 'second'):
-        if 'y_first' in row:
-            assert (line['x_' + side] == [float(row['x_' + side]), float(row['y_' + side])]).all()
-            assert (line['v_' + side] == [float(row['vx_' + side]), float(row['vy_' + side])]).all()
-        else:
-            assert line['x_' + side] == float(row['x_' + side])
-            assert line['v_' + side] == float(row['v_' + side])
-order = [name for name in ('left', 'right', 'lower', 'upper', 'slanted-1', 'slanted-2') if name in walls]
-assert [walls[name] for name in order] == [-1 - k for k in range(len(order))], walls
-)")) << scene
-     << ": " << contents("python.txt");
-  }
-  output_of({"log", "billiard", "--to=-1", "--format", "npy", "-o", "log.npy"});
-  EXPECT_TRUE(python(interpreter, "import numpy\nassert numpy.load('log.npy').shape == (0,)"));
 }
 
 TEST_F(BodiesCli, RowsAreSelected) {

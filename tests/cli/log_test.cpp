@@ -37,19 +37,6 @@ TEST_F(LogTest, HasARowForEveryCollision) {
   }
 }
 
-TEST_F(LogTest, JsonLinesSayTheSameAsCsv) {
-  const auto csv = lines(output_of({"log", "--digits", "2"}));
-  const auto jsonl = lines(output_of({"log", "--digits", "2", "--format", "jsonl"}));
-  ASSERT_EQ(csv.size(), jsonl.size() + 1);
-  const auto names = split(kHeader, ',');
-  for (std::size_t row = 0; row < jsonl.size(); ++row) {
-    const auto fields = split(csv[row + 1], ',');
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      EXPECT_EQ(json_value(jsonl[row], {names[i]}), fields[i]) << jsonl[row];
-    }
-  }
-}
-
 class EnginesLogTest : public CliFixture, public testing::WithParamInterface<int> {};
 
 /// Velocities and positions compare with the largest that the run has: near the turning point
@@ -153,13 +140,6 @@ TEST_F(LogTest, ReachesTheMiddleOfTwentyDigits) {
   }
 }
 
-TEST_F(LogTest, CountsOnWhereTheNumberGrowsADigit) {
-  const Arguments nines{"log", "--digits", "20", "--first", "9999999999999999998", "--limit"};
-  EXPECT_EQ(indices(output_of(nines + Arguments{"4"})),
-            (std::vector<std::string>{"9999999999999999998", "9999999999999999999",
-                                      "10000000000000000000", "10000000000000000001"}));
-}
-
 /// Runs of any length are the rows of the whole: batches leave no trace.
 TEST_F(LogTest, ARunOfRowsIsAPartOfTheWhole) {
   const auto all = lines(output_of({"log", "--digits", "4"}));
@@ -179,30 +159,24 @@ TEST_F(LogTest, ARunOfRowsIsAPartOfTheWhole) {
   }
 }
 
-/// Of blocks and of bodies.
 TEST_F(LogTest, WritesAFileInTheFormatOfItsEnding) {
-  write("bodies.toml", "[[body]]\nposition = 1\nvelocity = 1\n[[body]]\nposition = 3\n");
-  write("blocks.toml", "digits = 2\n");
-  for (const char* scene : {"blocks.toml", "bodies.toml"}) {
-    SCOPED_TRACE(scene);
-    for (const auto& [file, format] : {std::pair{"a/log.csv", "csv"},
-                                       {"log", "csv"},
-                                       {"log.JSONL", "jsonl"},
-                                       {"log.npy", "npy"}}) {
-      const std::string rows = output_of({"log", scene, "--format", format});
-      EXPECT_EQ(output_of({"log", scene, "-o", file}), "");
-      EXPECT_EQ(contents(file), rows) << file;
-      output_of({"log", scene, "--format", format, "-o", "log.dat"});
-      EXPECT_EQ(contents("log.dat"), rows) << "another ending says nothing";
-    }
-    std::filesystem::remove(folder_ / "log.dat");
-    expect_refusal(
-        {"log", scene, "-o", "log.dat"},
-        "log: 'log.dat' has no known ending; use .csv, .jsonl or .npy, or say the format "
-        "by --format");
-    expect_refusal({"log", scene, "--format", "csv", "-o", "new.npy"},
-                   "--format csv: 'new.npy' is a name of npy; leave out --format");
+  write("scene.toml", "digits = 2\n");
+  for (const auto& [file, format] : {std::pair{"a/log.csv", "csv"},
+                                     {"log", "csv"},
+                                     {"log.JSONL", "jsonl"},
+                                     {"log.npy", "npy"}}) {
+    const std::string rows = output_of({"log", "scene.toml", "--format", format});
+    EXPECT_EQ(output_of({"log", "scene.toml", "-o", file}), "");
+    EXPECT_EQ(contents(file), rows) << file;
+    output_of({"log", "scene.toml", "--format", format, "-o", "log.dat"});
+    EXPECT_EQ(contents("log.dat"), rows) << "another ending says nothing";
   }
+  std::filesystem::remove(folder_ / "log.dat");
+  expect_refusal({"log", "scene.toml", "-o", "log.dat"},
+                 "log: 'log.dat' has no known ending; use .csv, .jsonl or .npy, or say the format "
+                 "by --format");
+  expect_refusal({"log", "scene.toml", "--format", "csv", "-o", "new.npy"},
+                 "--format csv: 'new.npy' is a name of npy; leave out --format");
 }
 
 /// A row of the closed form is computed when it is written: none is kept.

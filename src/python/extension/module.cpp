@@ -14,7 +14,6 @@ PYBIND11_MODULE(_piblocks, module) {
   piblocks::python::wait_for_work_at_exit();
   piblocks::python::bind_script(module);
   piblocks::python::bind_run(module);
-  piblocks::python::bind_body_run(module);
   piblocks::python::bind_frames(module);
   piblocks::python::bind_render(module);
   piblocks::python::bind_golden(module);

@@ -74,7 +74,7 @@ py::tuple render_film(const BoundScript& bound, const std::string& output, const
     };
     rendered = render(*job, report, stop);
     if (!rendered.aftermath.empty()) rendered.notes.push_back(rendered.aftermath);
-    for (std::string& note : cli::convention_notes(job->script)) {
+    for (std::string& note : convention_notes(job->script)) {
       rendered.notes.push_back(std::move(note));
     }
   });

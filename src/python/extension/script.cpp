@@ -79,9 +79,9 @@ std::string count_of(const BoundScript& bound) {
 }
 
 std::vector<std::string> notes_of(const BoundScript& bound) {
-  std::vector<std::string> notes = cli::convention_notes(bound.script);
+  std::vector<std::string> notes = convention_notes(bound.script);
   if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
-    if (auto note = cli::endless_note(*scene)) notes.push_back(std::move(*note));
+    if (auto note = endless_note(*scene)) notes.push_back(std::move(*note));
   }
   return notes;
 }
@@ -153,11 +153,6 @@ void bind_script(py::module_& module) {
       .def_property_readonly(
           "is_storyboard",
           [](const BoundScript& bound) { return std::holds_alternative<Storyboard>(bound.script); })
-      .def_property_readonly("has_bodies",
-                             [](const BoundScript& bound) {
-                               const auto* const scene = std::get_if<Scene>(&bound.script);
-                               return scene != nullptr && !has_short_names(scene->system);
-                             })
       .def_property_readonly("is_transparent",
                              [](const BoundScript& bound) {
                                return view_of(bound.script).background == Background::transparent;

@@ -75,7 +75,6 @@ std::string hexadecimal(const Integer& value);
 
 void bind_script(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
-void bind_body_run(pybind11::module_& module);
 void bind_frames(pybind11::module_& module);
 void bind_render(pybind11::module_& module);
 void bind_golden(pybind11::module_& module);

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from . import _errors  # the extension raises what is defined there
 from . import _piblocks
-from ._bodies import BodiesState
 from ._errors import (
     DrawError,
     Error,
@@ -24,7 +23,7 @@ from ._golden import GoldenResult
 from ._keys import keys
 from ._notebook import Player
 from ._render import Rendered, join
-from ._run import State
+from ._run import BodiesState, State
 from ._scene import Scene, scenes
 
 __version__: str = _piblocks.VERSION

@@ -35,6 +35,7 @@ _OPTIONS = {
     "hold-end": "time_hold_end",
     "hold-start": "time_hold_start",
     "jobs": "jobs",
+    "last": "last",
     "limit": "limit",
     "logo": "show_logo",
     "loop": "time_loop=True",

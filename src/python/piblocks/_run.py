@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import math
 from dataclasses import dataclass
 from typing import Any, Optional, Union
@@ -10,16 +11,9 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _piblocks
-from ._errors import UsageError
 from ._values import instant, options, scalar
 
-#: A row of a log, as ``piblocks log --format npy`` writes it.
-_ROW = np.dtype(ast.literal_eval(_piblocks.ROW_TYPE))
-#: The same with the kind of the collision as a str, which compares with Python's strings.
-ROW = np.dtype([(n, "U6" if n == "kind" else _ROW[n]) for n in _ROW.names or ()])
-_CHUNK = 65_536  # rows whose kind becomes a str at a time
-_STATE = ast.literal_eval(_piblocks.STATE_TYPE)
-_BOUNDS = ast.literal_eval(_piblocks.BOUND_TYPE)
+_CHUNK = 65_536  # rows whose words become str at a time
 
 
 @dataclass(frozen=True)
@@ -39,8 +33,37 @@ class State:
     x_red_bound: Optional[float] = None
 
 
-def run_of(script: _piblocks.Script, engine: Any) -> _piblocks.Run:
-    return _piblocks.Run(script, {b"--engine": scalar("engine", engine)})
+@dataclass(frozen=True, eq=False)
+class BodiesState:
+    """All bodies at one instant, or at each of an array of them.
+
+    Bodies are in the order of the scene. The last axis of positions and velocities has one
+    coordinate on a line, and two, x and y, in a plane.
+    """
+
+    #: A float; an array of the shape of the times if these were one.
+    time: Any
+    #: Index of the last collision until then: an int, or an array like ``time``, of int64, or of
+    #: ints if these do not fit.
+    count: Any
+    #: Of the centres, in the scene's units: (bodies, dimensions), after the shape of the times.
+    positions: np.ndarray
+    #: As ``positions``; just after a collision that happens at that time.
+    velocities: np.ndarray
+
+
+def run_of(
+    script: _piblocks.Script, operation: str, engine: str, to: Any = None
+) -> _piblocks.Run:
+    given = {} if engine == "unfolded" else {b"--engine": scalar("engine", engine)}
+    if to is not None:
+        given[b"--to"] = instant("to", to)
+    return _piblocks.Run(script, operation, given)
+
+
+@functools.lru_cache
+def _dtype(row_type: str) -> np.dtype:
+    return np.dtype(ast.literal_eval(row_type))
 
 
 def _with_objects(dtype: np.dtype, name: str) -> np.dtype:
@@ -57,72 +80,27 @@ def _replace_column(rows: np.ndarray, name: str, values: list[Any]) -> np.ndarra
     return result
 
 
-def _index(name: str, value: Any) -> int:
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
-        raise TypeError(f"{name}: must be an int, not {type(value).__name__}")
-    return int(value)
-
-
-AnyRun = Union[_piblocks.Run, _piblocks.BodyRun]
-
-
-def _limit_until(run: AnyRun, given: dict[bytes, bytes], last: int) -> int:
-    """How many rows there are up to this index."""
-    if not run.has(format(last, "x")):
-        first_index, size = int(run.first_index, 16), int(run.size, 16)
-        are = "collisions"
-        if run.is_endless:
-            are = "infinitely many collisions, of which the log lists"
-        has = f"{are} {first_index:,} to {size:,}" if size >= first_index else "no collisions"
-        raise UsageError(f"last {last:,}: the scene has {has}")
-    first, _ = run.select({**given, b"--limit": b"1"})
-    return last - int(first, 16) + 1
-
-
-def options_of_log(from_: Any, to: Any, first: Any, limit: Any) -> dict[bytes, bytes]:
-    given = options({"--first": first, "--limit": limit})
-    for name, value in (("from", from_), ("to", to)):
-        if value is not None:
-            given[b"--" + name.encode()] = instant(name, value)
-    return given
-
-
-def selected(
-    run: AnyRun, given: dict[bytes, bytes], last: Any, limit: Any
-) -> tuple[int, int]:
-    """The index of the first row, and how many there are."""
-    if last is not None:
-        rows_until = _limit_until(run, given, _index("last", last))
-        if rows_until <= 0:
-            return 1, 0
-        if limit is None or _index("limit", limit) > rows_until:
-            given = {**given, b"--limit": b"%d" % rows_until}
-    begin, count = run.select(given)
-    return int(begin, 16), int(count, 16)
-
-
-def _fit(begin: int, count: int) -> bool:
-    return -(2**63) < begin and begin + count < 2**63
-
-
-def with_index(rows: np.ndarray, begin: int) -> np.ndarray:
-    """The rows, with their indices as ints if these do not fit into int64."""
-    if _fit(begin, len(rows)):
-        return rows
-    return _replace_column(rows, "index", [begin + i for i in range(len(rows))])
-
-
 def log(
     run: _piblocks.Run, from_: Any, to: Any, first: Any, last: Any, limit: Any
 ) -> np.ndarray:
-    begin, count = selected(run, options_of_log(from_, to, first, limit), last, limit)
-    rows = np.empty(count, ROW)
-    fits = _fit(begin, count)
+    if last is not None and (isinstance(last, bool) or not isinstance(last, (int, np.integer))):
+        raise TypeError(f"last: must be an int, not {type(last).__name__}")
+    given = options({"--first": first, "--last": last, "--limit": limit})
+    for name, value in (("from", from_), ("to", to)):
+        if value is not None:
+            given[b"--" + name.encode()] = instant(name, value)
+    begin, count = (int(number, 16) for number in run.select(given))
+    row = _dtype(run.row_type)
+    # Words become str, which compare with Python's strings.
+    shown = [(n, f"U{row[n].itemsize}" if row[n].kind == "S" else row[n]) for n in row.names or ()]
+    rows = np.empty(count, shown)
     for start in range(0, count, _CHUNK):
-        part = np.empty(min(_CHUNK, count - start), _ROW)
-        run.fill_log(format(begin + start, "x"), part.view(np.uint8), len(part), fits)
+        part = np.empty(min(_CHUNK, count - start), row)
+        run.fill_log(format(begin + start, "x"), part.view(np.uint8), len(part))
         rows[start : start + len(part)] = part
-    return with_index(rows, begin)
+    if -(2**63) < begin and begin + count < 2**63:
+        return rows
+    return _replace_column(rows, "index", [begin + i for i in range(count)])
 
 
 def _whole(text: str) -> Union[int, float]:
@@ -130,15 +108,30 @@ def _whole(text: str) -> Union[int, float]:
 
 
 def _fill(run: _piblocks.Run, times: Any, bounds: bool, shape: tuple[int, ...]) -> np.ndarray:
-    rows = np.empty(len(times), np.dtype(_STATE + (_BOUNDS if bounds else [])))
-    if isinstance(times, np.ndarray):
-        counts = run.states_of_numbers(times, bounds, rows.view(np.uint8))
-    else:
-        counts = run.states_of_texts(times, bounds, rows.view(np.uint8))
+    rows = np.empty(len(times), _dtype(run.state_type(bounds)))
+    counts = run.fill_states(times, bounds, rows.view(np.uint8))
     if counts:
         whole = [_whole(text) if text else int(row) for text, row in zip(counts, rows["count"])]
         rows = _replace_column(rows, "count", whole)
     return rows.reshape(shape)
+
+
+def _own(value: Any) -> Any:
+    """An array of its own, or a number of Python."""
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _states(run: _piblocks.Run, times: Any, bounds: bool, shape: tuple[int, ...]) -> Any:
+    """The states of an array of times, or the one of the shape ()."""
+    rows = _fill(run, times, bounds, shape)
+    names = rows.dtype.names or ()
+    is_pair = "x_blue" in names
+    if is_pair and shape:
+        return rows
+    values = [_own(rows[name][()]) for name in names]
+    return State(*values) if is_pair else BodiesState(*values)
 
 
 def state(run: _piblocks.Run, t: Any, bounds: bool) -> Any:
@@ -149,8 +142,7 @@ def state(run: _piblocks.Run, t: Any, bounds: bool) -> Any:
         array[:] = t
         t = array
     if not isinstance(t, np.ndarray):
-        row = _fill(run, [instant("t", t)], bounds, (1,))[0]
-        return State(*(value.item() if hasattr(value, "item") else value for value in row))
+        return _states(run, [instant("t", t)], bounds, ())
     if t.dtype == np.float64 or np.issubdtype(t.dtype, np.integer) and t.dtype.itemsize <= 4:
-        return _fill(run, np.ascontiguousarray(t, np.float64).ravel(), bounds, t.shape)
-    return _fill(run, [instant("t", one) for one in t.ravel()], bounds, t.shape)
+        return _states(run, np.ascontiguousarray(t, np.float64).ravel(), bounds, t.shape)
+    return _states(run, [instant("t", one) for one in t.ravel()], bounds, t.shape)

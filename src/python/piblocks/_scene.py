@@ -8,8 +8,7 @@ from typing import Any, Union
 
 import numpy as np
 
-from . import _bodies, _golden, _notebook, _piblocks, _render, _run
-from ._bodies import BodiesState
+from . import _golden, _notebook, _piblocks, _render, _run
 from ._errors import SceneError, UsageError, of_system
 from ._film import Frames, pixels
 from ._golden import GoldenResult
@@ -23,7 +22,7 @@ from ._keys import (
     parts_text,
 )
 from ._render import Progress, Rendered
-from ._run import State
+from ._run import BodiesState, State
 from ._values import bytes_of, flag, instant, path, require_str, scalar, shown
 
 Path = Union[str, "os.PathLike[str]"]
@@ -70,7 +69,7 @@ class Scene:
     314
     """
 
-    __slots__ = ("_script", "_recipe", "_runs", "_body_run", "_pictures", "__weakref__")
+    __slots__ = ("_script", "_recipe", "_runs", "_pictures", "__weakref__")
 
     def __init__(self, digits: Any = None, **keys: Any) -> None:
         if digits is not None:
@@ -86,7 +85,6 @@ class Scene:
         self._script = _piblocks.Script(origin, text, is_file, list(keys))
         self._recipe = (origin, source, is_file, keys)
         self._runs: dict[str, _piblocks.Run] = {}
-        self._body_run: _piblocks.BodyRun | None = None
         self._pictures: _piblocks.Pictures | None = None
 
     @classmethod
@@ -243,16 +241,11 @@ class Scene:
         """
         return int(self._script.count(), 16)
 
-    def _run(self, engine: str) -> _piblocks.Run:
+    def _run(self, operation: str, engine: str) -> _piblocks.Run:
+        require_str("engine", engine)
         if engine not in self._runs:
-            self._runs[engine] = _run.run_of(self._script, engine)
+            self._runs[engine] = _run.run_of(self._script, operation, engine)
         return self._runs[engine]
-
-    def _run_of_bodies(self, engine: str, bounds: bool) -> _piblocks.BodyRun:
-        if self._body_run is None or bounds or engine != "unfolded":
-            given = {b"--bounds": b"true"} if bounds else {}
-            self._body_run = _bodies.run_of(self._script, engine, given, True)
-        return self._body_run
 
     def log(
         self,
@@ -281,10 +274,10 @@ class Scene:
         :param engine: "unfolded", the closed form; "events", the event loop in doubles.
         :raises UsageError: if there are no such collisions, or too many; for a storyboard.
         """
-        require_str("engine", engine)
-        if self._script.has_bodies:
-            return _bodies.log(self._script, engine, from_, to, first, last, limit)
-        return _run.log(self._run(engine), from_, to, first, last, limit)
+        run = self._run("log", engine)
+        if to is not None and run.never_ends:  # it may have to go further than the film
+            run = _run.run_of(self._script, "log", engine, to)
+        return _run.log(run, from_, to, first, last, limit)
 
     def state(
         self, t: Any, *, bounds: bool = False, engine: str = "unfolded"
@@ -300,10 +293,7 @@ class Scene:
         :param bounds: also how far each position may be from the truth.
         :raises UsageError: if the scene has no such instant; for a storyboard.
         """
-        require_str("engine", engine)
-        if self._script.has_bodies:
-            return _bodies.state(self._run_of_bodies(engine, flag("bounds", bounds)), t)
-        return _run.state(self._run(engine), t, flag("bounds", bounds))
+        return _run.state(self._run("state", engine), t, flag("bounds", bounds))
 
     # Pictures
 

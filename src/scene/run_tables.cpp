@@ -1,0 +1,258 @@
+#include "scene/run_tables.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+
+#include "scene/run_log.hpp"
+
+namespace piblocks {
+namespace {
+
+using Kind = TableLayout::Kind;
+using Use = std::function<void(const TableRows&)>;
+
+constexpr std::size_t kRowsAtOnce = CollisionBatch::kCapacity;
+
+/// @param shape  of an array, after a comma
+void add_type(TableLayout& layout, const std::string& name, const char* type,
+              const char* shape = "") {
+  layout.npy += fmt::format("{}('{}', '{}'{})", layout.npy.empty() ? "" : ", ", name, type, shape);
+}
+
+void add_column(TableLayout& layout, const std::string& name, Kind kind = Kind::number) {
+  layout.columns.push_back({name, kind});
+  layout.csv += fmt::format("{}<{}>", layout.csv.empty() ? "" : ",", name);
+}
+
+/// The same as a column of NumPy.
+void add_column(TableLayout& layout, const std::string& name, Kind kind, const char* type) {
+  add_column(layout, name, kind);
+  add_type(layout, name, type);
+}
+
+/// Adds all positions, then all velocities. On a line these are "x_1", … "v_1", …; in a plane they
+/// have the coordinates "x_1", "y_1", … "vx_1", "vy_1", ….
+void add_motions(TableLayout& layout, const BodySystem& system,
+                 const std::vector<std::string>& bodies) {
+  const bool is_plane = system.dimensions == 2;
+  for (const char* const vector : {"x", "v"}) {
+    for (const std::string& body : bodies) {
+      const std::string name = fmt::format("{}_{}", vector, body);
+      add_type(layout, name, "<f8", is_plane ? ", (2,)" : "");
+      if (!is_plane) {
+        add_column(layout, name);
+      } else if (name.front() == 'x') {
+        add_column(layout, "x_" + body);
+        add_column(layout, "y_" + body);
+      } else {
+        add_column(layout, "vx_" + body);
+        add_column(layout, "vy_" + body);
+      }
+    }
+  }
+}
+
+/// The position and the velocity of a body in JSON.
+/// @param bound  between them
+std::string motion_text(const BodySystem& system, const std::string& body,
+                        const std::string& bound = {}) {
+  return system.dimensions == 2
+             ? fmt::format(R"({{"position":[<x_{0}>,<y_{0}>],"velocity":[<vx_{0}>,<vy_{0}>]}})",
+                           body)
+             : fmt::format(R"({{"position":<x_{0}>{1},"velocity":<v_{0}>}})", body, bound);
+}
+
+/// A number as NumPy has it.
+std::string bytes_of(std::int32_t value) {
+  std::string bytes(sizeof value, '\0');
+  std::memcpy(bytes.data(), &value, sizeof value);
+  return bytes;
+}
+
+/// The numbers of the bodies, and the names of the walls.
+std::vector<TableLayout::Word> words_of(const BodySystem& system) {
+  std::vector<TableLayout::Word> words;
+  for (std::int32_t body = 1; body <= std::int32_t(system.bodies.size()); ++body) {
+    const std::string text = std::to_string(body);
+    words.push_back({text, text, bytes_of(body)});
+  }
+  for (std::int32_t number = -1; const Wall& wall : system.walls) {
+    words.push_back({wall.name, '"' + wall.name + '"', bytes_of(number--)});
+  }
+  return words;
+}
+
+/// @param words  columns of words. @param type  of these in NumPy
+TableLayout collision_layout(const BodySystem& system, const std::vector<std::string>& words,
+                             const char* type, const std::vector<std::string>& bodies) {
+  TableLayout layout;
+  add_column(layout, "index", Kind::index, "<i8");
+  add_column(layout, "time", Kind::number, "<f8");
+  layout.columns.push_back({"time_low"});  // what a double leaves out of the time; NumPy's alone
+  add_type(layout, "time_low", "<f8");
+  layout.json = R"({"index":"<index>","time":<time>)";
+  for (const std::string& word : words) {
+    add_column(layout, word, Kind::word, type);
+    layout.json += fmt::format(R"(,"{0}":<{0}>)", word);
+  }
+  add_motions(layout, system, bodies);
+  return layout;
+}
+
+void add_blue_and_red(TableLayout& layout, const BodySystem& system, bool has_bounds) {
+  add_motions(layout, system, {"blue", "red"});
+  const auto motion = [&](const std::string& body) {
+    if (!has_bounds) return motion_text(system, body);
+    const std::string bound = fmt::format("x_{}_bound", body);
+    add_column(layout, bound, Kind::number, "<f8");
+    return motion_text(system, body, fmt::format(R"(,"position_bound":<{}>)", bound));
+  };
+  layout.json += fmt::format(R"("blue":{},)", motion("blue"));
+  layout.json += fmt::format(R"("red":{})", motion("red"));
+}
+
+void add_bodies(TableLayout& layout, const BodySystem& system) {
+  std::vector<std::string> bodies;
+  std::vector<std::string> motions;
+  for (std::size_t body = 1; body <= system.bodies.size(); ++body) {
+    bodies.push_back(std::to_string(body));
+    motions.push_back(motion_text(system, bodies.back()));
+  }
+  const std::string shape = fmt::format(", ({}, {})", bodies.size(), system.dimensions);
+  const std::string before = layout.npy;
+  add_motions(layout, system, bodies);
+  layout.npy = before;  // NumPy has arrays of all bodies
+  add_type(layout, "positions", "<f8", shape.c_str());
+  add_type(layout, "velocities", "<f8", shape.c_str());
+  layout.json += fmt::format(R"("bodies":[{}])", fmt::join(motions, ","));
+}
+
+void read_pair(const CollisionLog& log, const Integer& first, const Integer& last, const Use& use) {
+  CollisionBatch batch{};
+  std::array<std::uint32_t, kRowsAtOnce> kinds{};
+  TableRows rows;
+  rows.columns = {nullptr,
+                  batch.time_hi.data(),
+                  batch.time_lo.data(),
+                  kinds.data(),
+                  batch.blue_position.data(),
+                  batch.red_position.data(),
+                  batch.blue_velocity.data(),
+                  batch.red_velocity.data()};
+  for (const auto stream = log.stream(first, last); stream->read(batch); use(rows)) {
+    rows.first = batch.first;
+    rows.size = batch.size;
+    std::ranges::transform(batch.kind, kinds.begin(),
+                           [](CollisionKind kind) { return std::uint32_t(kind); });
+  }
+}
+
+void read_bodies(const Log& log, const Integer& first, const Integer& last, const Use& use) {
+  const auto axes = std::size_t(log.system().dimensions);
+  std::array<std::array<std::uint32_t, kRowsAtOnce>, 2> bodies{};
+  std::vector<std::array<double, kRowsAtOnce>> numbers(2 + 4 * axes);
+  TableRows rows;
+  rows.columns = {nullptr, numbers[0].data(), numbers[1].data(), bodies[0].data(),
+                  bodies[1].data()};
+  for (std::size_t i = 2; i < numbers.size(); ++i) rows.columns.push_back(numbers[i].data());
+  const auto add = [&](const BodyCollision& c) {
+    bodies[0].at(rows.size) = c.first;
+    bodies[1].at(rows.size) = c.second;
+    auto column = numbers.begin();
+    const auto put = [&](double number) { (column++)->at(rows.size) = shown(number); };
+    put(c.time.hi);
+    put(c.time.lo);
+    for (const auto* const vector : {&c.first_after.position, &c.second_after.position,
+                                     &c.first_after.velocity, &c.second_after.velocity}) {
+      std::for_each_n(vector->begin(), axes, put);
+    }
+  };
+  for (Integer index = first; index <= last; use(rows)) {
+    rows.first = index;
+    for (rows.size = 0; rows.size < kRowsAtOnce && index <= last; ++rows.size) {
+      add(log.collision(index++));
+    }
+  }
+}
+
+}  // namespace
+
+Table collision_table(const BodySystem& system) {
+  using namespace std::string_literals;
+  if (has_short_names(system)) {
+    TableLayout layout = collision_layout(system, {"kind"}, "|S6", {"blue", "red"});
+    for (const char* const name : {"x_blue", "x_red", "v_blue", "v_red"}) {
+      layout.json += fmt::format(R"(,"{0}":<{0}>)", name);
+    }
+    layout.json += '}';
+    layout.words = {{"wall", "\"wall\"", "wall\0\0"s},  // in the order of CollisionKind
+                    {"blocks", "\"blocks\"", "blocks"}};
+    return Table(std::move(layout));
+  }
+  TableLayout layout = collision_layout(system, {"first", "second"}, "<i4", {"first", "second"});
+  layout.json += fmt::format(R"(,"first_after":{},"second_after":{}}})",
+                             motion_text(system, "first"), motion_text(system, "second"));
+  layout.words = words_of(system);
+  return Table(std::move(layout));
+}
+
+void read_collisions(const Log& log, const Integer& first, const Integer& last, const Use& use) {
+  if (has_short_names(log.system())) return read_pair(*log.pair(), first, last, use);
+  read_bodies(log, first, last, use);
+}
+
+Table state_table(const BodySystem& system, bool has_bounds) {
+  if (has_bounds) require_blocks(system, "--bounds");
+  TableLayout layout;
+  add_column(layout, "time", Kind::number, "<f8");
+  add_column(layout, "count", Kind::index, "<i8");
+  layout.json = R"({"time":<time>,"collisions":"<count>",)";
+  has_short_names(system) ? add_blue_and_red(layout, system, has_bounds)
+                          : add_bodies(layout, system);
+  layout.json += '}';
+  return Table(std::move(layout));
+}
+
+StateRow state_row(const Log& log, const Rational& time, bool has_bounds) {
+  const BodiesState state = log.state_at(time);
+  const auto axes = std::ptrdiff_t{log.system().dimensions};
+  StateRow row{state.count, state.count == infinite_count(log)};
+  row.numbers.reserve(3 + 2 * state.bodies.size() * std::size_t(axes));
+  row.numbers.push_back(to_double(time));
+  for (const auto part : {&BodyMotion::position, &BodyMotion::velocity}) {
+    for (const BodyMotion& body : state.bodies) {
+      const auto& vector = body.*part;
+      row.numbers.insert(row.numbers.end(), vector.begin(), vector.begin() + axes);
+    }
+  }
+  if (!has_bounds) return row;
+  const std::optional<PositionBounds> bounds = log.pair()->bounds_at(time);
+  if (!bounds) {
+    throw UsageError(
+        "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
+  }
+  row.numbers.insert(row.numbers.end(), {bounds->blue, bounds->red});
+  return row;
+}
+
+TableRows StateRow::rows() const {
+  TableRows rows{.first = count, .is_infinite = is_infinite, .size = 1};
+  rows.columns.reserve(numbers.size() + 1);
+  rows.columns = {numbers.data(), nullptr};  // time and count
+  for (std::size_t i = 1; i < numbers.size(); ++i) rows.columns.push_back(&numbers[i]);
+  return rows;
+}
+
+std::string state_text(const Table& states, const StateRow& row) {
+  fmt::memory_buffer text;
+  states.append(TableFormat::jsonl, row.rows(), text);
+  return {text.data(), text.size() - 1};
+}
+
+}  // namespace piblocks
