@@ -194,7 +194,7 @@ void SceneOptions::check_output(const Script& script) const {
 
 void add_engine(Command& command) {
   command.add_value("--engine", "NAME",
-                    "unfolded: closed form (default);\n"
+                    "unfolded: closed form or certified steps (default);\n"
                     "events: the event loop, in double precision");
 }
 

@@ -13,8 +13,10 @@ std::unique_ptr<Log> make_log(Scene scene, const OptionTexts& options) {
   const auto parse_engine = [](const std::string& text) {
     return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded}, {"events", Engine::events}});
   };
-  const auto to = options.value("--to", parse_instant);
-  if (to && to->is_time()) scene.time.to = *to;
+  if (options.is_given("--to")) {
+    const Instant to = *options.value("--to", parse_instant);
+    if (to.is_time()) scene.time.to = to;
+  }
   return log_of(scene, {}, options.value("--engine", parse_engine).value_or(Engine::unfolded));
 }
 

@@ -57,6 +57,27 @@ TEST_F(BodiesCli, CountsAreThoseOfTheLog) {
   }
 }
 
+TEST_F(BodiesCli, TheEventLoopStepsThemToo) {
+  for (const char* scene : kBodyScenes) {
+    SCOPED_TRACE(scene);
+    const auto rows = lines(output_of({"log", scene, "--limit", "4"}));
+    const auto stepped = lines(output_of({"log", scene, "--limit", "4", "--engine", "events"}));
+    ASSERT_EQ(rows.size(), stepped.size());
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const auto fields = split(rows[i], ',');
+      const auto doubles = split(stepped[i], ',');
+      ASSERT_EQ(fields.size(), doubles.size());
+      for (std::size_t at = 0; at < fields.size(); ++at) {
+        if (at == 2 || at == 3) {  // the bodies
+          EXPECT_EQ(fields[at], doubles[at]);
+        } else {
+          EXPECT_NEAR(std::stod(fields[at]), std::stod(doubles[at]), 1e-9);
+        }
+      }
+    }
+  }
+}
+
 TEST_F(BodiesCli, CountsOfEndlessRunsNeedATime) {
   expect_line({"count", "endless.toml"},
               "time.to: these bodies may collide for ever; say until when, as time.to = 10");

@@ -175,13 +175,6 @@ def test_energy_is_kept():
 
 def test_refusals_of_logs_and_states(program):
     scene = scene_of(BLOCKS)
-    for ask, keys, word in ((scene.log, {}, "engine"), (scene.state, {"t": 1}, "engine")):
-        with pytest.raises(piblocks.UsageError) as raised:
-            ask(engine="events", **keys)
-        assert str(raised.value) == (
-            f"{word}: needs two blocks and a fixed wall; "
-            "leave it out, or leave out [[body]] and wall.mass"
-        )
     with pytest.raises(piblocks.UsageError, match="^bounds: needs two blocks and a fixed wall"):
         scene.state(1, bounds=True)
     assert scene.state(1).count == 1  # as if nothing had been asked
