@@ -1,8 +1,7 @@
 #include "draw/changes.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
+#include <type_traits>
 #include <variant>
 
 namespace piblocks {
@@ -97,20 +96,20 @@ class Comparison {
   /// Two items that show the same thing.
   void compare(const DrawItem& before, const DrawItem& after) {
     if (before == after) return;
-    if (before.index() == after.index()) {
-      if (const auto* a = std::get_if<TextItem>(&before))
-        return compare(*a, std::get<TextItem>(after));
-      if (const auto* a = std::get_if<RectangleItem>(&before))
-        return compare(*a, std::get<RectangleItem>(after));
-      if (const auto* a = std::get_if<PathItem>(&before))
-        return compare(*a, std::get<PathItem>(after));
-      if (const auto* a = std::get_if<GroupItem>(&before))
-        return compare(*a, std::get<GroupItem>(after));
-      if (const auto* a = std::get_if<ExposedBlocksItem>(&before))
-        return compare(*a, std::get<ExposedBlocksItem>(after));
-      if (const auto* a = std::get_if<MovingShapesItem>(&before))
-        return compare(*a, std::get<MovingShapesItem>(after));
-    }
+    std::visit(
+        [&]<typename A, typename B>(const A& a, const B& b) {
+          if constexpr (std::is_same_v<A, B>) {
+            compare(a, b);
+          } else {
+            add(before);
+            add(after);
+          }
+        },
+        before, after);
+  }
+
+  /// Discs, images and plates change as a whole.
+  void compare(const auto& before, const auto& after) {
     add(before);
     add(after);
   }
@@ -127,16 +126,18 @@ class Comparison {
   }
 
   void compare(const RectangleItem& before, const RectangleItem& after) {
-    const Extent a = extent_of(before.bounds);
-    const Extent b = extent_of(after.bounds);
+    const Rect& a = before.bounds;
+    const Rect& b = after.bounds;
     if (!slides(before, after)) {
       add(a);
       add(b);
       return;
     }
     const double line = before.stroke ? before.stroke->width_px : 0;
-    add({std::min(a.left, b.left), a.top, std::max(a.left, b.left) + line, a.bottom});
-    add({std::min(a.right, b.right) - line, a.top, std::max(a.right, b.right), a.bottom});
+    const auto [left, next_left] = std::minmax(a.x, b.x);
+    const auto [last_right, right] = std::minmax({a.right(), b.right()});
+    add(Rect::around({left, a.y}, {next_left + line, a.bottom()}));
+    add(Rect::around({last_right - line, a.y}, {right, a.bottom()}));
   }
 
   void compare(const PathItem& before, const PathItem& after) {
@@ -145,57 +146,50 @@ class Comparison {
       add(after);
       return;
     }
-    const double y = after.points.view()[0].y;
-    const auto [left, right] = std::minmax(before.points.view()[1].x, after.points.view()[1].x);
-    add(Extent{left, y, right, y}.grown(after.stroke->width_px / 2));
+    const Rect changed = Rect::around(before.points.view()[1], after.points.view()[1]);
+    add(changed.grown(after.stroke->width_px / 2));
   }
 
   void compare(const GroupItem& before, const GroupItem& after) {
     if (!stays(before, after)) {
-      add(extent_of(before.bounds));
-      add(extent_of(after.bounds));
+      add(before.bounds);
+      add(after.bounds);
       return;
     }
     Comparison within(*after.list, width_em_);
     within.compare(*before.list, *after.list);
-    for (const PixelRect& rect : within.rects()) {
-      const double x = after.bounds.x + rect.x_px;
-      const double y = after.bounds.y + rect.y_px;
-      add({x, y, x + rect.width_px, y + rect.height_px});
-    }
+    const Point corner{after.bounds.x, after.bounds.y};
+    for (const PixelRect& rect : within.rects()) add(to_rect(rect) + corner);
   }
 
   /// Where one block passes, the others are painted with it: all rows of all change.
   void compare(const ExposedBlocksItem& before, const ExposedBlocksItem& after) {
-    const Extent a = extent_of(before, width_em_);
-    const Extent b = extent_of(after, width_em_);
-    const double top = std::min(a.top, b.top);
-    const double bottom = std::max(a.bottom, b.bottom);
-    compare(before.behind, after.behind, top, bottom);
-    compare(before.front, after.front, top, bottom);
+    const Rect rows = extent_of(before, width_em_) | extent_of(after, width_em_);
+    compare(before.behind, after.behind, rows);
+    compare(before.front, after.front, rows);
     if (before.contacts == after.contacts) return;
     for (const ExposedBlocksItem* item : {&before, &after}) {
       if (item->contacts.empty()) continue;
-      add({item->contacts.front().right_x(), top, item->contacts.back().right_x() + 1, bottom});
+      add(item->contacts.front().right_x(), item->contacts.back().right_x() + 1, rows);
     }
   }
 
   /// Between the ends of its way, a moving block has the same pixels wherever these ends are.
-  void compare(const ExposedBlock& before, const ExposedBlock& after, double top, double bottom) {
+  void compare(const ExposedBlock& before, const ExposedBlock& after, const Rect& rows) {
     if (before == after) return;
-    const Extent a = extent_of(before);
-    const Extent b = extent_of(after);
+    const Rect a = extent_of(before);
+    const Rect b = extent_of(after);
     if (!slides(before, after)) {
-      add({a.left, top, a.right, bottom});
-      add({b.left, top, b.right, bottom});
+      add(a.x, a.right(), rows);
+      add(b.x, b.right(), rows);
       return;
     }
-    const double from = std::min(a.left, b.left);
-    const double to = std::max(a.right, b.right);
+    const double from = std::min(a.x, b.x);
+    const double to = std::max(a.right(), b.right());
     const double width = before.bounds.width;
     const double line = before.stroke.width_px;
-    add({from, top, to - width + line, bottom});
-    add({from + width - line, top, to, bottom});
+    add(from, to - width + line, rows);
+    add(from + width - line, to, rows);
   }
 
   /// All shapes are looked at in the same moments.
@@ -212,9 +206,12 @@ class Comparison {
 
   void add(const DrawItem& item) { add(extent_of(item, width_em_)); }
   void add(const PathItem& path) {
-    for (const Extent& extent : extents_of(path)) add(extent);
+    for (const Rect& extent : extents_of(path)) add(extent);
   }
-  void add(const Extent& extent) {
+  void add(double left, double right, const Rect& rows) {
+    add(Rect::around({left, rows.y}, {right, rows.bottom()}));
+  }
+  void add(const Rect& extent) {
     if (rects_.size() == 1 && rects_.front() == frame_) return;
     const PixelRect rect = pixels_of(extent.grown(kRounding_px), frame_);
     if (rect.width_px <= 0 || rect.height_px <= 0) return;

@@ -16,13 +16,14 @@
 #include <variant>
 #include <vector>
 
+#include "draw/geometry.hpp"
 #include "draw/item_parts.hpp"
 
 namespace piblocks {
 
 struct RectangleItem {
   ItemId id = ItemId::wall;
-  Rectangle bounds;
+  Rect bounds;
   std::optional<Color> fill;
   std::optional<Stroke> stroke;
   bool operator==(const RectangleItem&) const = default;
@@ -60,20 +61,20 @@ class Points {
     return points_ ? std::span<const Point>(*points_) : std::span<const Point>();
   }
   /// The least rectangle around them.
-  const Rectangle& bounds() const noexcept { return bounds_; }
+  const Rect& bounds() const noexcept { return bounds_; }
   friend bool operator==(const Points& a, const Points& b) {
     return a.points_ == b.points_ || std::ranges::equal(a.view(), b.view());
   }
 
  private:
-  static Rectangle bounds_of(std::span<const Point> points) {
+  static Rect bounds_of(std::span<const Point> points) {
     if (points.empty()) return {};
     const auto [left, right] = std::ranges::minmax(points, {}, &Point::x);
     const auto [top, bottom] = std::ranges::minmax(points, {}, &Point::y);
     return {left.x, top.y, right.x - left.x, bottom.y - top.y};
   }
 
-  Rectangle bounds_;
+  Rect bounds_;
   std::shared_ptr<const std::vector<Point>> points_;
 };
 
@@ -115,7 +116,7 @@ struct Bar {
 
 /// A filled rectangle that moves sideways while the picture is exposed.
 struct ExposedBlock {
-  Rectangle bounds;  ///< at the picture's instant
+  Rect bounds;  ///< at the picture's instant
   Color fill;
   Stroke stroke;          ///< solid
   std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
@@ -167,7 +168,7 @@ struct MovingShapesItem {
 /// An image, scaled to its bounds. Equal if the image is the same object.
 struct ImageItem {
   ItemId id = ItemId::wall;
-  Rectangle bounds;
+  Rect bounds;
   std::shared_ptr<const Image> image;  ///< straight alpha
   bool operator==(const ImageItem&) const = default;
 };
@@ -178,7 +179,7 @@ struct Plate;
 /// All items with the same plate have bounds of one size, and at one place from the origin.
 struct PlateItem {
   ItemId id = ItemId::wall;
-  Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
+  Rect bounds;  ///< in whole pixels; the plate is cut off at them
   std::shared_ptr<const Plate> plate;
   Point origin{};  ///< of the plate's items, in whole pixels
 
@@ -191,7 +192,7 @@ struct DrawList;
 /// it hides everything behind it, even where its own background is transparent.
 struct GroupItem {
   ItemId id = ItemId::compared;
-  Rectangle bounds;  ///< of the list's shape
+  Rect bounds;  ///< of the list's shape
   std::shared_ptr<const DrawList> list;
   double opacity = 1;  ///< 0 … 1
 
@@ -219,7 +220,7 @@ void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>&
 
 /// Whether a pixel of the group's list is a pixel of the picture.
 inline bool is_on_pixels(const GroupItem& group) {
-  const Rectangle& r = group.bounds;
+  const Rect& r = group.bounds;
   return r.width == group.list->width_px && r.x == std::floor(r.x) && r.y == std::floor(r.y);
 }
 

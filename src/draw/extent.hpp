@@ -13,43 +13,28 @@
 
 namespace piblocks {
 
-/// In pixels, but not whole ones.
-struct Extent {
-  double left;
-  double top;
-  double right;
-  double bottom;
-
-  Extent grown(double px) const { return {left - px, top - px, right + px, bottom + px}; }
-};
-
 /// An item may paint so far out of its extent: Cairo rounds coordinates and sums to 1/256 pixel.
 inline constexpr double kRounding_px = 1.0 / 64;
 
 /// Small discs are painted at whole multiples of this.
 inline constexpr double kDiscStep_px = 1.0 / 8;
 
-/// Cairo's coordinates wrap around at 2^23 pixels. Paths are painted as if they ended here; no
-/// frame and no line reaches as far.
-inline constexpr double kFar_px = 1 << 22;
-
 /// Width of a line of text, in ems.
 using MeasureText = std::function<double(Face face, std::string_view utf8)>;
 
-Extent extent_of(const Rectangle& rectangle);
-Extent extent_of(const ExposedBlock& block);
-Extent extent_of(const MovingShapesItem& item);
-Extent extent_of(const MovingShape& moving);
+Rect extent_of(const ExposedBlock& block);
+Rect extent_of(const MovingShapesItem& item);
+Rect extent_of(const MovingShape& moving);
 /// The characters of a line of text between two distances from its origin.
-Extent extent_of(const TextItem& text, double left_em, double right_em);
-Extent extent_of(const DrawItem& item, const MeasureText& width_em);
+Rect extent_of(const TextItem& text, double left_em, double right_em);
+Rect extent_of(const DrawItem& item, const MeasureText& width_em);
 
 /// Extents outside of which the path paints nothing: of a slanted line many small ones, since one
 /// rectangle around it would be far larger.
-std::vector<Extent> extents_of(const PathItem& path);
+std::vector<Rect> extents_of(const PathItem& path);
 
 /// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.
-PixelRect pixels_of(const Extent& extent, const PixelRect& area);
+PixelRect pixels_of(const Rect& extent, const PixelRect& area);
 
 /// The pixels of an area that a moving block or shape reaches into; of no width if nothing moves.
 PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area);

@@ -108,7 +108,7 @@ class FramePlanner {
     const double below = read_outs_height_px > 0 ? read_outs_height_px + sizes_.gap / 2 : 0;
     const double height = bottom - top_ - below;
     if (height < kLeastStage * sizes_.short_side) throw_no_room();
-    Rectangle diagrams{left_, top_, right_ - left_, height};
+    Rect diagrams{left_, top_, right_ - left_, height};
     if (view_.width_px >= view_.height_px) {
       const double stage = kPlaneStage * view_.width_px;
       plan_.stage = {0, top_, stage, height};
@@ -320,10 +320,10 @@ class FramePlanner {
     fill_panels({left_, top, right_ - left_, bottom - top});
   }
 
-  void fill_panels(const Rectangle& area) {
+  void fill_panels(const Rect& area) {
     const double least = kLeastPanel_em * sizes_.text;
     plan_.panels = panel_grid(show_.panels.size(), area, sizes_.gap, sizes_.text);
-    const Rectangle& panel = plan_.panels.front();
+    const Rect& panel = plan_.panels.front();
     if (std::min(panel.width, panel.height) >= least) return;
     const std::size_t count = show_.panels.size();
     throw UsageError(fmt::format(

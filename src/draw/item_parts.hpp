@@ -1,8 +1,6 @@
-// What all draw items are made of: ids, colours, places, lines.
+// What draw items are made of beside places: ids, colours, lines.
 // In: composition. Out: parts of items.
 #pragma once
-
-#include <piblocks/image.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -51,26 +49,6 @@ struct Color {
   std::uint8_t alpha = 255;  ///< 255 is opaque
   bool operator==(const Color&) const = default;
 };
-
-/// From the frame's upper left corner, y down. Whole numbers are the lines between pixels.
-struct Point {
-  double x = 0;
-  double y = 0;
-  bool operator==(const Point&) const = default;
-};
-
-/// From its upper left corner.
-struct Rectangle {
-  double x = 0;
-  double y = 0;
-  double width = 0;
-  double height = 0;
-  bool operator==(const Rectangle&) const = default;
-};
-
-inline Rectangle to_rectangle(const PixelRect& r) {
-  return {double(r.x_px), double(r.y_px), double(r.width_px), double(r.height_px)};
-}
 
 /// A line. On a rectangle it is drawn inside the outline, so that the shape is exactly as large as
 /// it says; on a path and on a disc it is centred on the outline.

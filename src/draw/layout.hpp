@@ -38,14 +38,6 @@ struct BlockShape {
   double height_px = 1;
 };
 
-/// The whole pixels around an area.
-inline Rectangle whole_pixels(const Rectangle& area, double around_px = 0) {
-  const double left = std::floor(area.x - around_px);
-  const double top = std::floor(area.y - around_px);
-  return {left, top, std::ceil(area.x + area.width + around_px) - left,
-          std::ceil(area.y + area.height + around_px) - top};
-}
-
 /// The stage: the map from scene to pixels. It depends on the area and on the longest count alone,
 /// so that nothing shifts while the counter grows.
 struct Layout {
@@ -65,7 +57,7 @@ struct Layout {
 
   /// Of discs: the part of the frame that shows them, in whole pixels. All else is seen from its
   /// upper left corner.
-  Rectangle window = {};
+  Rect window = {};
 
   /// Pixel position of a point of the scene.
   Point at(double x, double y) const noexcept {
@@ -75,7 +67,7 @@ struct Layout {
   double width_px(std::size_t body) const noexcept { return shapes[body].width * scale; }
   double height_px(std::size_t body) const noexcept { return shapes[body].height_px; }
   /// A block on the floor.
-  Rectangle at(std::size_t body, const FrameState& shown) const noexcept {
+  Rect at(std::size_t body, const FrameState& shown) const noexcept {
     const BlockShape& block = shapes[body];
     const double position = shown.state.bodies[body].position[0];
     return {origin.x + (position - block.width / 2) * scale, floor_px - block.height_px,
@@ -123,12 +115,12 @@ struct CounterPlace {
 struct FramePlan {
   std::vector<TextItem> lines;  ///< title and caption
   CounterPlace counter;
-  Rectangle logo;  ///< empty unless asked for
-  Rectangle stage;
+  Rect logo;  ///< empty unless asked for
+  Rect stage;
   bool is_floor_at_bottom = false;  ///< all spare height of the stage is above the blocks
   double header_bottom_px = 0;      ///< lower end of title, counter and digits of pi
   double read_outs_top_px = 0;
-  std::vector<Rectangle> panels;
+  std::vector<Rect> panels;
 };
 
 /// What the counter needs room for.
@@ -154,11 +146,11 @@ double reach_px(const DrawingContext& context);
 /// @throws UsageError if the view is right of the wall, too close to tell positions, or the area
 ///         is too low for the blocks.
 /// @param is_floor_at_bottom  as in FramePlan
-Layout lay_out_stage(const DrawingContext& context, const Rectangle& area,
+Layout lay_out_stage(const DrawingContext& context, const Rect& area,
                      bool is_floor_at_bottom = false);
 /// The same of the article's picture. @param longest_count  of those that will be shown
 Layout lay_out_article(const DrawingContext& context, const Integer& longest_count,
-                       const Rectangle& area);
+                       const Rect& area);
 
 /// @throws UsageError if positions, which are doubles, would be drawn in wrong places.
 void check_resolution(const View& view, double scale);

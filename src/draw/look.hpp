@@ -132,13 +132,13 @@ inline constexpr double kLine = 0.0032;
 /// Where the height is less than this fraction of the width, the height counts.
 inline constexpr double kNarrow = 0.75;
 
-inline double short_measure(const Rectangle& area) {
+inline double short_measure(const Rect& area) {
   return std::min(area.height, kNarrow * area.width);
 }
 
 }  // namespace article_style
 
-inline Rectangle whole(const View& view) {
+inline Rect whole(const View& view) {
   return {0, 0, double(view.width_px), double(view.height_px)};
 }
 

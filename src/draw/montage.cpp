@@ -40,7 +40,7 @@ constexpr double kCaptionHeight = 1.6;
 /// Captions that make pictures narrower than this part of their width without them are left out.
 constexpr double kLeastShareWithCaptions = 0.5;
 
-GroupItem group_of(ItemId id, const Rectangle& bounds, DrawList picture, double opacity = 1) {
+GroupItem group_of(ItemId id, const Rect& bounds, DrawList picture, double opacity = 1) {
   return {id, bounds, std::make_shared<const DrawList>(std::move(picture)), opacity};
 }
 
@@ -160,7 +160,7 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
     if (i + 1 == n) break;
     empty_.items.emplace_back(
         RectangleItem{nth(ItemId::compared, static_cast<std::size_t>(i)),
-                      to_rectangle(place(at + cell_px, margin, line_px, breadth - 2 * margin)),
+                      to_rect(place(at + cell_px, margin, line_px, breadth - 2 * margin)),
                       palette_of(view.theme).grid, std::nullopt});
   }
 }
@@ -168,15 +168,15 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
 DrawList SplitScreen::compose(std::vector<DrawList> pictures) const {
   DrawList list = empty_;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    list.items.emplace_back(group_of(nth(ItemId::compared, cells_.size() + i),
-                                     to_rectangle(cells_[i]), std::move(pictures[i])));
+    list.items.emplace_back(group_of(nth(ItemId::compared, cells_.size() + i), to_rect(cells_[i]),
+                                     std::move(pictures[i])));
   }
   return list;
 }
 
 DrawList faded(DrawList picture, double opacity) {
   DrawList ground{picture.width_px, picture.height_px, picture.background, {}};
-  const Rectangle bounds = to_rectangle({0, 0, picture.width_px, picture.height_px});
+  const Rect bounds = to_rect({0, 0, picture.width_px, picture.height_px});
   if (opacity > 0) {
     ground.items.emplace_back(group_of(ItemId::fade, bounds, std::move(picture), opacity));
   }
@@ -208,16 +208,14 @@ DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int heigh
     auto& [picture, text] = pictures[static_cast<std::size_t>(i)];
     const int column = i % grid.columns;
     const int row = i / grid.columns;
-    const Rectangle place{left + column * step_x, top + row * step_y, width, height};
+    const Rect place{left + column * step_x, top + row * step_y, width, height};
     list.items.emplace_back(group_of(ItemId::compared, place, std::move(picture)));
     // Half of the line around the picture is inside of it.
-    const Rectangle frame{place.x - line_px / 2, place.y - line_px / 2, width + line_px,
-                          height + line_px};
-    above.emplace_back(
-        RectangleItem{ItemId::wall, frame, std::nullopt, Stroke{style::kSheetFrame, line_px}});
+    above.emplace_back(RectangleItem{ItemId::wall, place.grown(line_px / 2), std::nullopt,
+                                     Stroke{style::kSheetFrame, line_px}});
     if (grid.caption.height == 0 || text.empty()) continue;
     const Point origin{place.x + (width - font.width_em(text) * text_px) / 2,
-                       place.y + height + kCaptionBaseline * text_px};
+                       place.bottom() + kCaptionBaseline * text_px};
     above.emplace_back(TextItem{ItemId::label, origin, text, text_px, style::kSheetText});
   }
   std::ranges::move(above, std::back_inserter(list.items));

@@ -13,11 +13,6 @@ constexpr double kTolerance_px = 1.0 / 64;
 /// Sides of two pieces of a line that are as near as this need no joint.
 constexpr double kNoJoint_px = 1.0 / 64;
 
-Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
-Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
-Point operator*(double factor, const Point& a) { return {factor * a.x, factor * a.y}; }
-double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
 Point with_length(const Point& a, double wanted) { return (wanted / length(a)) * a; }
 
 /// Visits points of an arc in order, without its ends.
@@ -69,10 +64,7 @@ class LineOutline {
     return points_[(piece + 1) % points_.size()] - points_[piece];
   }
   /// From the middle of a piece to its one side.
-  Point offset(std::size_t piece) const {
-    const Point along = with_length(step(piece), radius_);
-    return {-along.y, along.x};
-  }
+  Point offset(std::size_t piece) const { return turned_right(with_length(step(piece), radius_)); }
   void add_end(std::size_t at, const Point& offset) {
     one_side_.push_back(points_[at] + offset);
     other_side_.push_back(points_[at] - offset);
@@ -120,7 +112,7 @@ void for_each_dash(std::span<const Point> points, double dash_px, const Visit& v
     Point at = points[i - 1];
     double rest_px = length(points[i] - at);
     while (rest_px > left_px) {
-      at = at + (left_px / rest_px) * (points[i] - at);
+      at = on_way(at, points[i], left_px / rest_px);
       rest_px -= left_px;
       left_px = dash_px;
       dash.push_back(at);

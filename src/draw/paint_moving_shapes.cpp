@@ -139,8 +139,7 @@ class MovingBlock {
 
   bool repeats(int y) const { return cover_.of_row(y) == cover_.of_row(y - 1); }
   Run rows(const Point& /*at*/) const {
-    return {whole(std::floor(block_.bounds.y)),
-            whole(std::ceil(block_.bounds.y + block_.bounds.height))};
+    return {whole(std::floor(block_.bounds.y)), whole(std::ceil(block_.bounds.bottom()))};
   }
 
   template <typename Solid, typename Edge>

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "core/rounded.hpp"
 #include "draw/extent.hpp"
 #include "draw/outline.hpp"
 #include "draw/painter.hpp"
@@ -18,16 +17,16 @@ namespace {
 
 /// Dashes along one side, fitted to end in each corner and to look the same from both ends.
 void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px) {
-  const double length = rounded::hypot(to.x - from.x, to.y - from.y);
-  const double periods = std::max(1.0, std::round((length / dash_px - 1) / 2));
-  const double fitted = length / (2 * periods + 1);
+  const double side_px = length(to - from);
+  const double periods = std::max(1.0, std::round((side_px / dash_px - 1) / 2));
+  const double fitted = side_px / (2 * periods + 1);
   cairo_set_dash(&cr, &fitted, 1, 0);
   cairo_move_to(&cr, from.x, from.y);
   cairo_line_to(&cr, to.x, to.y);
   cairo_stroke(&cr);
 }
 
-void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
+void stroke_inside(cairo_t& cr, const Rect& bounds, const Stroke& stroke) {
   set_color(cr, stroke.color);
   const double width_px = std::min({stroke.width_px, bounds.width, bounds.height});
   if (width_px < stroke.width_px) {
@@ -37,33 +36,29 @@ void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
     cairo_fill(&cr);
     return;
   }
-  const double inset = width_px / 2;
-  const double left = bounds.x + inset;
-  const double top = bounds.y + inset;
-  const double right = bounds.x + bounds.width - inset;
-  const double bottom = bounds.y + bounds.height - inset;
+  const Rect middle = bounds.grown(-width_px / 2);
   cairo_set_line_width(&cr, width_px);
   if (stroke.dash_px <= 0) {
     cairo_set_dash(&cr, nullptr, 0, 0);
-    cairo_rectangle(&cr, left, top, right - left, bottom - top);
+    cairo_rectangle(&cr, middle.x, middle.y, middle.width, middle.height);
     cairo_stroke(&cr);
     return;
   }
   cairo_set_line_cap(&cr, CAIRO_LINE_CAP_SQUARE);
-  const std::array<Point, 4> corners{{{left, top}, {right, top}, {right, bottom}, {left, bottom}}};
+  const std::vector<Point> corners = middle.corners();
   for (std::size_t i = 0; i < 4; ++i) {
-    stroke_side(cr, corners.at(i), corners.at((i + 1) % 4), stroke.dash_px);
+    stroke_side(cr, corners[i], corners[(i + 1) % 4], stroke.dash_px);
   }
   cairo_set_line_cap(&cr, CAIRO_LINE_CAP_BUTT);
 }
 
 double within_reach(double px) { return std::clamp(px, -kFar_px, kFar_px); }
 
-Rectangle within_reach(const Rectangle& r) {
+Rect within_reach(const Rect& r) {
   const double x = within_reach(r.x);
   const double y = within_reach(r.y);
   if (x == r.x && y == r.y && r.width <= kMaxSide_px && r.height <= kMaxSide_px) return r;
-  return {x, y, within_reach(r.x + r.width) - x, within_reach(r.y + r.height) - y};
+  return {x, y, within_reach(r.right()) - x, within_reach(r.bottom()) - y};
 }
 
 /// Vector files have lines and circles; only pixels need polygons.
@@ -126,8 +121,7 @@ void add_circle_curves(cairo_t& cr, const Point& centre, double radius) {
                                               {kHalf, -kHalf},
                                               {1, 0}}};
   const auto at = [&](const Point& direction, double along) {
-    return Point{centre.x + radius * (direction.x - along * direction.y),
-                 centre.y + radius * (direction.y + along * direction.x)};
+    return centre + radius * (direction + along * turned_right(direction));
   };
   cairo_move_to(&cr, centre.x + radius, centre.y);
   for (std::size_t i = 1; i < kDirections.size(); ++i) {
@@ -152,7 +146,7 @@ void set_color(cairo_t& cr, const Color& color) {
 }
 
 void paint_shape(cairo_t& cr, const RectangleItem& item) {
-  const Rectangle bounds = within_reach(item.bounds);
+  const Rect bounds = within_reach(item.bounds);
   if (item.fill) {
     set_color(cr, *item.fill);
     cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);

@@ -79,7 +79,7 @@ bool is_small(const DiscItem& disc) {
   return reach_of(disc) <= kSmall_px;
 }
 
-void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) {
+void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rect& bounds) {
   cairo_set_source_surface(&cr, &pixels, bounds.x, bounds.y);
   cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
   cairo_fill(&cr);
@@ -218,7 +218,7 @@ cairo_surface_t& Painter::kept_pixels(const std::shared_ptr<const Image>& image)
 
 /// A vector file can only paint a group over what is behind it.
 void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area) {
-  const Rectangle& bounds = item.bounds;
+  const Rect& bounds = item.bounds;
   if (is_on_pixels(item) && has_pixels_of_picture(cr)) {
     paint_group_pixels(cr, item, area);
     return;

@@ -27,7 +27,7 @@ void paint_shape(cairo_t& cr, const PathItem& item);
 void paint_shape(cairo_t& cr, const DiscItem& item);
 
 /// Fills a rectangle with a surface whose upper left corner is there.
-void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds);
+void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rect& bounds);
 
 /// Whether pixels of the picture are those of the surface: not in vector files and scaled groups.
 bool has_pixels_of_picture(cairo_t& cr);

@@ -13,15 +13,15 @@ constexpr double kPanelAspect = 1.6;
 
 }  // namespace
 
-std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap, double em) {
+std::vector<Rect> panel_grid(std::size_t count, const Rect& area, double gap, double em) {
   const auto side = [gap](double length, std::size_t n) {
     return (length - gap * double(n - 1)) / double(n);
   };
   const auto cell = [&](std::size_t columns) {
     const std::size_t rows = (count + columns - 1) / columns;
-    return Rectangle{0, 0, side(area.width, columns), side(area.height, rows)};
+    return Rect{0, 0, side(area.width, columns), side(area.height, rows)};
   };
-  const auto size = [em](const Rectangle& r) {
+  const auto size = [em](const Rect& r) {
     return std::tuple(std::min(r.width, r.height) >= kLeastPanel_em * em,
                       r.width >= kTitledPanel_em * em, std::min(r.width / kPanelAspect, r.height));
   };
@@ -29,9 +29,9 @@ std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, doub
   for (std::size_t columns = 2; columns <= count; ++columns) {
     if (size(cell(columns)) > size(cell(best))) best = columns;
   }
-  std::vector<Rectangle> cells(count, cell(best));
+  std::vector<Rect> cells(count, cell(best));
   for (std::size_t i = 0; i < count; ++i) {
-    Rectangle& place = cells[i];
+    Rect& place = cells[i];
     const std::size_t row = i / best;
     // A last row that is not full is centred.
     const std::size_t in_row = std::min(best, count - row * best);

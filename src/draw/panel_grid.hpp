@@ -15,6 +15,6 @@ inline constexpr double kLeastPanel_em = 6;
 /// The grid in which `count` panels come out largest, if possible not too small.
 /// @param gap  between panels, in pixels
 /// @param em   of their text, in pixels
-std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap, double em);
+std::vector<Rect> panel_grid(std::size_t count, const Rect& area, double gap, double em);
 
 }  // namespace piblocks

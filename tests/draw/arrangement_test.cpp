@@ -91,8 +91,8 @@ class Arrangement {
       if (const auto* plate = std::get_if<PlateItem>(&item)) add(plate->plate->items);
       if (const auto* block = std::get_if<RectangleItem>(&item)) add(*block);
       if (const auto* group = std::get_if<GroupItem>(&item)) {
-        const Rectangle& r = group->bounds;
-        blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, 0, group->id, 0, "the loupe"});
+        const Rect& r = group->bounds;
+        blocks_.push_back({r.x, r.y, r.right(), r.bottom(), 0, group->id, 0, "the loupe"});
       }
     }
   }
@@ -109,8 +109,8 @@ class Arrangement {
   }
   void add(const RectangleItem& item) {
     if (item.id != ItemId::red_block && item.id != ItemId::blue_block) return;
-    const Rectangle& r = item.bounds;
-    blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, 0, item.id, 0,
+    const Rect& r = item.bounds;
+    blocks_.push_back({r.x, r.y, r.right(), r.bottom(), 0, item.id, 0,
                        item.id == ItemId::red_block ? "the red block" : "the blue block"});
   }
 

@@ -270,7 +270,7 @@ TEST(BodyPictures, DiscsAreCutOffWhereTheyLeave) {
   }
   const Film film(read(moving));
   const DrawList first = film.frame(0);
-  const Rectangle window = std::get<GroupItem>(first.items.front()).bounds;
+  const Rect window = std::get<GroupItem>(first.items.front()).bounds;
   const auto outside = [&](const DrawList& list) {
     DrawList rest = list;
     rest.items.erase(rest.items.begin());
@@ -282,8 +282,8 @@ TEST(BodyPictures, DiscsAreCutOffWhereTheyLeave) {
     const std::vector<std::uint32_t> beside = outside(list);
     for (int y = 0; y < list.height_px; ++y) {
       for (int x = 0; x < list.width_px; ++x) {
-        const bool is_in_window = x >= window.x && x < window.x + window.width && y >= window.y &&
-                                  y < window.y + window.height;
+        const bool is_in_window =
+            x >= window.x && x < window.right() && y >= window.y && y < window.bottom();
         const auto at = std::size_t(y) * std::size_t(list.width_px) + std::size_t(x);
         if (is_in_window) continue;
         ASSERT_EQ(all[at], beside[at]) << k << ": " << x << ", " << y;
@@ -300,8 +300,8 @@ bool shows(const DrawItem& item, ItemId thing) {
 }
 
 /// All paths that show one thing.
-std::vector<Rectangle> paths_of(const DrawList& list, ItemId thing) {
-  std::vector<Rectangle> found;
+std::vector<Rect> paths_of(const DrawList& list, ItemId thing) {
+  std::vector<Rect> found;
   for (const DrawItem& item : list.items) {
     const auto* path = std::get_if<PathItem>(&item);
     if (path != nullptr && shows(item, thing)) found.push_back(path->points.bounds());
@@ -325,12 +325,11 @@ TEST(BodyPictures, ArrowsAndTextsKeepApart) {
       for (std::int64_t k = 0; k < film->frame_count(); ++k) {
         const DrawList list = film->frame(k);
         ASSERT_EQ(problem_of(list), "") << name << " " << size << ", frame " << k;
-        for (const Rectangle& arrow : paths_of(list, ItemId::velocities)) {
+        for (const Rect& arrow : paths_of(list, ItemId::velocities)) {
           ++arrows;
           for (const Box& text : texts_of(list)) {
-            ASSERT_FALSE(overlap(
-                {arrow.x, arrow.y, arrow.x + arrow.width, arrow.y + arrow.height + 0.6, "an arrow"},
-                text))
+            ASSERT_FALSE(
+                overlap({arrow.x, arrow.y, arrow.right(), arrow.bottom() + 0.6, "an arrow"}, text))
                 << name << " " << size << ", frame " << k << ": " << text.what;
           }
         }
@@ -382,7 +381,7 @@ TEST(BodyPictures, HitsAreMarkedWhereBodiesTouch) {
       const DrawList frame = film.frame(number);
       const auto* const window = std::get_if<GroupItem>(&frame.items.front());
       const DrawList& list = window != nullptr ? *window->list : frame;
-      for (const Rectangle& mark : paths_of(list, ItemId::hits)) {
+      for (const Rect& mark : paths_of(list, ItemId::hits)) {
         ++marks;
         EXPECT_LE(mark.width, 0.13 * 720) << name;
         EXPECT_GT(mark.height, 0) << name;

@@ -22,7 +22,7 @@ std::uint32_t pixel(const Canvas& canvas, int x, int y) {
   return value & 0xFFFFFF;
 }
 
-DrawList with_rectangle(const Rectangle& bounds) {
+DrawList with_rectangle(const Rect& bounds) {
   return {40, 30, kWhite, {RectangleItem{ItemId::blue_block, bounds, kGreen, std::nullopt}}};
 }
 
@@ -116,7 +116,7 @@ std::uint32_t word(const Canvas& canvas, int x, int y) {
 }
 
 /// A plate of its own in each list, with the same disc in all.
-DrawList with_plate(const Rectangle& bounds, const Point& origin) {
+DrawList with_plate(const Rect& bounds, const Point& origin) {
   const DiscItem disc{ItemId::blue_block, {20.5, 15.25}, 9, kGreen, std::nullopt};
   const auto plate = std::make_shared<const Plate>(Plate{{disc}});
   return {60, 40, kWhite, {PlateItem{ItemId::panels, bounds, plate, origin}}};
@@ -124,8 +124,8 @@ DrawList with_plate(const Rectangle& bounds, const Point& origin) {
 
 TEST(Canvas, PlatesOfEqualItemsMayHaveOtherPixels) {
   Canvas canvas(60, 40);
-  for (const Rectangle& bounds :
-       {Rectangle{10, 5, 16, 20}, {10, 5, 20, 12}, {10, 5, 20, 20}, {14, 5, 20, 20}}) {
+  for (const Rect& bounds :
+       {Rect{10, 5, 16, 20}, {10, 5, 20, 12}, {10, 5, 20, 20}, {14, 5, 20, 20}}) {
     for (const Point& origin : {Point{0, 0}, Point{4, 0}, Point{0, 3}}) {
       for (const double right : {0.0, 7.0, 7.0}) {
         const DrawList list = with_plate({bounds.x + right, bounds.y, bounds.width, bounds.height},

@@ -108,7 +108,7 @@ TEST(Panels, TheUnfoldedLineStaysInItsPlace) {
       const auto plate = std::ranges::find_if(
           list.items, [](const DrawItem& item) { return std::holds_alternative<PlateItem>(item); });
       ASSERT_NE(plate, list.items.end());
-      const Rectangle place = std::get<PlateItem>(*plate).bounds;
+      const Rect place = std::get<PlateItem>(*plate).bounds;
       std::vector<DrawItem> items(plate, list.items.end());
       const auto& still = std::get<PlateItem>(*plate).plate->items;
       items.insert(items.end(), still.begin(), still.end());
@@ -116,8 +116,8 @@ TEST(Panels, TheUnfoldedLineStaysInItsPlace) {
         const auto* path = std::get_if<PathItem>(&item);
         if (path == nullptr) continue;
         for (const Point& point : path->points.view()) {
-          EXPECT_TRUE(point.x >= place.x && point.x <= place.x + place.width &&
-                      point.y >= place.y && point.y <= place.y + place.height)
+          EXPECT_TRUE(point.x >= place.x && point.x <= place.right() && point.y >= place.y &&
+                      point.y <= place.bottom())
               << "at " << time << ": " << point.x << ", " << point.y;
         }
       }

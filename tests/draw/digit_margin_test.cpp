@@ -152,7 +152,7 @@ struct Figure {
       const auto* path = std::get_if<PathItem>(&item);
       if (path == nullptr) continue;
       paths.push_back(*path);
-      const Rectangle& box = path->points.bounds();
+      const Rect& box = path->points.bounds();
       if (path->fill == palette.accent && path->points.view().size() == 4) bands.push_back(box);
       if (path->stroke && box.height == 0 && box.width > 0) lines.push_back(box);
     }
@@ -165,13 +165,13 @@ struct Figure {
   }
   bool says(const std::string& text) const { return words().find(text) != std::string::npos; }
 
-  Rectangle bounds;
+  Rect bounds;
   std::size_t plates = 0;
   std::vector<DrawItem> items;
   std::vector<PathItem> paths;
   std::vector<TextItem> texts;
-  std::vector<Rectangle> bands;  ///< from pi/s to pi/theta
-  std::vector<Rectangle> lines;
+  std::vector<Rect> bands;  ///< from pi/s to pi/theta
+  std::vector<Rect> lines;
 };
 
 class MarginBases : public testing::TestWithParam<int> {};
@@ -182,8 +182,8 @@ TEST_P(MarginBases, MarksAreWhereTheyBelong) {
     const Expected expected(GetParam(), digits);
     const double fraction = nearest(expected.fraction);
     const double excess = nearest(expected.excess);
-    const Rectangle& line = figure.lines.at(0);
-    const Rectangle& band = figure.bands.at(0);
+    const Rect& line = figure.lines.at(0);
+    const Rect& band = figure.bands.at(0);
     EXPECT_NEAR(band.x, line.x + fraction * line.width, 1e-6) << digits;
     EXPECT_NEAR(band.width, excess * line.width, 1e-6) << digits;
   }
@@ -261,20 +261,20 @@ TEST(MarginPanel, RefusesWhatIsTooSmallToRead) {
   }
 }
 
-Rectangle box_of(const TextItem& text, const Fonts& fonts) {
+Rect box_of(const TextItem& text, const Fonts& fonts) {
   return {text.origin.x, text.origin.y - 0.74 * text.size_px,
           fonts.of(text.face).width_em(text.text) * text.size_px, 0.95 * text.size_px};
 }
 
-bool holds(const Rectangle& outer, const Rectangle& inner) {
-  return inner.x >= outer.x && inner.x + inner.width <= outer.x + outer.width &&
-         inner.y >= outer.y && inner.y + inner.height <= outer.y + outer.height;
+bool holds(const Rect& outer, const Rect& inner) {
+  return inner.x >= outer.x && inner.right() <= outer.right() && inner.y >= outer.y &&
+         inner.bottom() <= outer.bottom();
 }
 
-bool overlap(const Rectangle& a, const Rectangle& b) {
+bool overlap(const Rect& a, const Rect& b) {
   constexpr double kTouch_px = 0.5;
-  return a.x < b.x + b.width - kTouch_px && b.x < a.x + a.width - kTouch_px &&
-         a.y < b.y + b.height - kTouch_px && b.y < a.y + a.height - kTouch_px;
+  return a.x < b.right() - kTouch_px && b.x < a.right() - kTouch_px &&
+         a.y < b.bottom() - kTouch_px && b.y < a.bottom() - kTouch_px;
 }
 
 class MarginShapes : public testing::TestWithParam<const char*> {};
@@ -290,9 +290,9 @@ TEST_P(MarginShapes, HoldThePanelWithoutOverlaps) {
         EXPECT_TRUE(holds(figure.bounds, path.points.bounds()));
       }
       for (std::size_t i = 0; i < figure.texts.size(); ++i) {
-        const Rectangle box = box_of(figure.texts[i], fonts);
+        const Rect box = box_of(figure.texts[i], fonts);
         EXPECT_TRUE(holds(figure.bounds, box)) << figure.texts[i].text;
-        for (const Rectangle& band : figure.bands) {
+        for (const Rect& band : figure.bands) {
           EXPECT_FALSE(overlap(box, band)) << figure.texts[i].text;
         }
         for (std::size_t k = 0; k < i; ++k) {

@@ -35,7 +35,7 @@ class Formulas : public testing::Test {
     }
     return texts;
   }
-  static Rectangle root_sign_of(const Formula& formula) {
+  static Rect root_sign_of(const Formula& formula) {
     for (const DrawItem& item : items_of(formula)) {
       if (const auto* path = std::get_if<PathItem>(&item)) return path->points.bounds();
     }
@@ -118,12 +118,12 @@ TEST_F(Formulas, RootsHaveABarOverTheirContent) {
   const Formula ratio = set_.lowered(set_.italic("m"), set_.text("1")) + set_.text("/M");
   for (const Formula& content : {set_.italic("m"), set_.italic("M"), square, ratio}) {
     const Formula root = set_.root(content);
-    const Rectangle sign = root_sign_of(root);
+    const Rect sign = root_sign_of(root);
     EXPECT_GE(sign.x, 0);
-    EXPECT_LE(sign.x + sign.width, kSize_px * root.width_em() + 1e-6);
+    EXPECT_LE(sign.right(), kSize_px * root.width_em() + 1e-6);
     for (const TextItem& text : texts_of(root)) {
       const double right = text.origin.x + width_em(text.face, text.text) * text.size_px;
-      EXPECT_LE(right, sign.x + sign.width) << text.text;
+      EXPECT_LE(right, sign.right()) << text.text;
       const double height_em = text.text == "2" || text.text == "/M" ? 0.7 : 0.44;
       EXPECT_LT(sign.y, text.origin.y - height_em * text.size_px) << text.text;
     }
@@ -174,18 +174,18 @@ TEST_F(Formulas, DigitsAreEquallyWide) {
 // ---- ink
 
 /// The pixels that are not white.
-Extent ink_of(const TextItem& text, int side_px) {
+Rect ink_of(const TextItem& text, int side_px) {
   Canvas canvas(side_px, side_px);
   canvas.paint({side_px, side_px, Color{255, 255, 255}, {text}});
   const ImageView image = canvas.view();
-  Extent ink{1e9, 1e9, -1e9, -1e9};
+  Rect ink;
   for (int y = 0; y < side_px; ++y) {
     for (int x = 0; x < side_px; ++x) {
       std::uint32_t pixel = 0;
       std::memcpy(&pixel, image.row(y) + 4 * x, 4);
       if ((pixel & 0xFFFFFF) == 0xFFFFFF) continue;
-      ink = {std::min(ink.left, double(x)), std::min(ink.top, double(y)),
-             std::max(ink.right, x + 1.0), std::max(ink.bottom, y + 1.0)};
+      const Rect here{double(x), double(y), 1, 1};
+      ink = ink.width == 0 ? here : ink | here;
     }
   }
   return ink;
@@ -225,13 +225,11 @@ std::vector<std::string> characters_of(const Font& font, std::initializer_list<C
 void expect_ink_in_extent(const Fonts& fonts, Face face, const std::string& character) {
   constexpr int kSide_px = 150;
   const TextItem text{ItemId::title, {50, 90}, character, 50, {}, face};
-  const Extent ink = ink_of(text, kSide_px);
-  const Extent extent = extent_of(text, 0, fonts.of(face).width_em(character));
-  EXPECT_TRUE(ink.right < ink.left ||
-              (ink.left >= std::floor(extent.left) && ink.top >= std::floor(extent.top) &&
-               ink.right <= std::ceil(extent.right) && ink.bottom <= std::ceil(extent.bottom)))
-      << character << " of face " << int(face) << ": from " << (ink.left - 50) / 50 << ", "
-      << (90 - ink.top) / 50 << " to " << (ink.right - 50) / 50 << ", " << (90 - ink.bottom) / 50;
+  const Rect ink = ink_of(text, kSide_px);
+  const Rect extent = extent_of(text, 0, fonts.of(face).width_em(character));
+  EXPECT_TRUE(ink.width == 0 || extent.whole_pixels().holds(ink))
+      << character << " of face " << int(face) << ": from " << (ink.x - 50) / 50 << ", "
+      << (90 - ink.y) / 50 << " to " << (ink.right() - 50) / 50 << ", " << (90 - ink.bottom()) / 50;
 }
 
 TEST_F(Formulas, InkOfTextIsInItsExtent) {

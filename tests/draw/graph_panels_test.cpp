@@ -229,8 +229,8 @@ TEST(CountPanel, IsFilledUpToThePresent) {
     }
     double right = 0;
     for (const PathItem& strip : strips) {
-      const Rectangle& box = strip.points.bounds();
-      right = std::max(right, box.x + box.width);
+      const Rect& box = strip.points.bounds();
+      right = std::max(right, box.right());
     }
     EXPECT_NEAR(right, present.x, 1e-9);
     for (std::size_t i = 0; i + 1 < before.size(); ++i) EXPECT_EQ(before[i], strips[i]);
@@ -347,12 +347,12 @@ TEST(ConservationPanel, SumsAreConstant) {
     const Pictures pictures(digits, {{"show.panels", "conservation"}, {"view.size", "1280x720"}});
     const double mass = to_double(pictures.scene.system.bodies[1].mass.value());
     // All momentum is red's at first, to the left.
-    const Rectangle first = Shown(pictures.at(0)).bars.at(1).bounds;
-    const double zero = first.x + first.width;
+    const Rect first = Shown(pictures.at(0)).bars.at(1).bounds;
+    const double zero = first.right();
     const auto momentum = [&](const RectangleItem& bar) {
-      const Rectangle& box = bar.bounds;
+      const Rect& box = bar.bounds;
       const bool is_right = std::abs(box.x - zero) < 1e-9;
-      EXPECT_TRUE(is_right || std::abs(box.x + box.width - zero) < 1e-9);
+      EXPECT_TRUE(is_right || std::abs(box.right() - zero) < 1e-9);
       return (is_right ? box.width : -box.width) / first.width;
     };
     for (Integer k = 1; k <= pictures.log->last(); k += 1) {
@@ -407,10 +407,10 @@ TEST(ConservationPanel, BarsStayInTheirColumn) {
       }
       const std::size_t parts = system.bodies.size() - 1;
       for (std::size_t i = parts; i < shown.bars.size(); ++i) {
-        const Rectangle& bar = shown.bars[i].bounds;
+        const Rect& bar = shown.bars[i].bounds;
         longest = std::max(longest, bar.width);
         EXPECT_GE(bar.x, shown.bars.front().bounds.x - 1e-6) << to_double(time);
-        EXPECT_LE(bar.x + bar.width, left) << to_double(time);
+        EXPECT_LE(bar.right(), left) << to_double(time);
       }
     }
     EXPECT_GT(longest, 20);
@@ -439,7 +439,7 @@ TEST(GraphPanels, HoldAnySystem) {
       }
       for (const RectangleItem& bar : shown.bars) {
         EXPECT_GE(bar.bounds.x, 0);
-        EXPECT_LE(bar.bounds.x + bar.bounds.width, pictures.scene.view.width_px);
+        EXPECT_LE(bar.bounds.right(), pictures.scene.view.width_px);
       }
     }
   }
@@ -493,9 +493,9 @@ TEST_P(GraphPanelShapes, FitTheirPlaces) {
           }
         }
         for (const PathItem& path : shown.paths) {
-          const Rectangle& bounds = path.points.bounds();
+          const Rect& bounds = path.points.bounds();
           EXPECT_GE(bounds.x, sizes.margin - 1);
-          EXPECT_LE(bounds.x + bounds.width, pictures.scene.view.width_px - sizes.margin + 1);
+          EXPECT_LE(bounds.right(), pictures.scene.view.width_px - sizes.margin + 1);
         }
         if (HasFailure()) return;
       }

@@ -152,13 +152,13 @@ TEST(HitMarks, OfTheWallAndOfBlocksAreInTheCornersAboveTheLowerBody) {
     ASSERT_EQ(items.size(), 2U);
     const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front().bounds;
     const auto red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
-    const auto bottom = [](const Rectangle& r) { return r.y + r.height; };
+    const auto bottom = [](const Rect& r) { return r.bottom(); };
     EXPECT_LT(bottom(items[0].points.bounds()), blue.y);
     EXPECT_LT(bottom(items[1].points.bounds()), std::max(blue.y, red.y));
     const double contact = arc_of(items[1]).centre.x;
-    const Rectangle arc = items[1].points.bounds();
+    const Rect arc = items[1].points.bounds();
     EXPECT_EQ(arc.x < contact, blue.height <= red.height);
-    EXPECT_EQ(arc.x + arc.width > contact, red.height <= blue.height);
+    EXPECT_EQ(arc.right() > contact, red.height <= blue.height);
   }
 }
 

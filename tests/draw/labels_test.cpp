@@ -60,8 +60,8 @@ std::vector<TextItem> texts_of(const DrawList& list, ItemId thing) {
 }
 
 double right_of_wall(const DrawList& list) {
-  const Rectangle& wall = std::get<RectangleItem>(list.items.front()).bounds;
-  return wall.x + wall.width;
+  const Rect& wall = std::get<RectangleItem>(list.items.front()).bounds;
+  return wall.right();
 }
 
 /// From the leftmost to the rightmost point of an arrow; the wrong way round if none is drawn.
@@ -73,8 +73,8 @@ std::pair<double, double> reach_of_arrow(const DrawList& list, std::size_t n) {
         (path->id != nth(ItemId::velocities, n) && path->id != nth(ItemId::velocities, n + 1))) {
       continue;
     }
-    const Rectangle& bounds = path->points.bounds();
-    reach = {std::min(reach.first, bounds.x), std::max(reach.second, bounds.x + bounds.width)};
+    const Rect& bounds = path->points.bounds();
+    reach = {std::min(reach.first, bounds.x), std::max(reach.second, bounds.right())};
   }
   return reach;
 }
@@ -110,14 +110,14 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
 }
 
 /// From the left of the first to the right of the last figure, and around the line.
-Rectangle bounds_of(const TextItem& text, const Fonts& fonts) {
+Rect bounds_of(const TextItem& text, const Fonts& fonts) {
   return {text.origin.x, text.origin.y - text.size_px,
           fonts.of(text.face).width_em(text.text) * text.size_px, 1.2 * text.size_px};
 }
 
 /// A mass is whole in the frame: on its block, or clear of it.
 void expect_mass_of(const DrawList& list, ItemId thing, std::size_t n, const Fonts& fonts) {
-  std::optional<Rectangle> block;
+  std::optional<Rect> block;
   for (const DrawItem& item : list.items) {
     const auto* rectangle = std::get_if<RectangleItem>(&item);
     if (rectangle != nullptr && rectangle->id == thing) block = rectangle->bounds;
@@ -131,13 +131,13 @@ void expect_mass_of(const DrawList& list, ItemId thing, std::size_t n, const Fon
     if (text.id == nth(ItemId::masses, n)) mass = text;
   }
   ASSERT_TRUE(mass) << "the mass is gone, and " << seen << " pixels of its block are seen";
-  const Rectangle text = bounds_of(*mass, fonts);
+  const Rect text = bounds_of(*mass, fonts);
   EXPECT_GE(text.x, 0);
-  EXPECT_LE(text.x + text.width, list.width_px);
+  EXPECT_LE(text.right(), list.width_px);
   const bool is_on =
-      text.x >= block->x && text.x + text.width <= block->x + block->width && text.y > block->y - 1;
+      text.x >= block->x && text.right() <= block->x + block->width && text.y > block->y - 1;
   const bool is_above = mass->origin.y < block->y;
-  const bool is_beside = text.x + text.width <= block->x || text.x >= block->x + block->width;
+  const bool is_beside = text.right() <= block->x || text.x >= block->x + block->width;
   EXPECT_TRUE(is_on || is_above || is_beside) << text.x << " on " << block->x;
 }
 
@@ -244,15 +244,15 @@ TEST(Labels, FiguresOfTheRulerStandBelowTheirMarks) {
   for (const char* size : {"640x360", "480x360", "1080x1920", "3840x2160", "1600x300"}) {
     const Labels labels(3, {{"show.overlays", "ruler"}, {"view.size", size}});
     const DrawList list = labels.at(0);
-    const Rectangle& wall = std::get<RectangleItem>(list.items.front()).bounds;
+    const Rect& wall = std::get<RectangleItem>(list.items.front()).bounds;
     const std::vector<TextItem> figures = texts_of(list, ItemId::ruler);
     EXPECT_GT(figures.size(), 3U);
     for (const TextItem& figure : figures) {
       const double width_px = font.width_em(figure.text) * figure.size_px;
       EXPECT_TRUE(has_upright_line_at(list, figure.origin.x + width_px / 2))
           << figure.text << " in " << size;
-      EXPECT_TRUE(figure.origin.x > wall.x + wall.width ||
-                  figure.origin.y - 0.73 * figure.size_px > wall.y + wall.height)
+      EXPECT_TRUE(figure.origin.x > wall.right() ||
+                  figure.origin.y - 0.73 * figure.size_px > wall.bottom())
           << figure.text << " meets the wall in " << size;
       EXPECT_LT(figure.origin.x + width_px, list.width_px) << figure.text;
       EXPECT_LT(figure.origin.y, list.height_px) << figure.text;
@@ -325,7 +325,7 @@ TEST(Labels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
         if (text == nullptr || text->origin.y != baseline) continue;
         const double width_em = fonts.of(text->face).width_em(text->text);
         EXPECT_GE(text->size_px, style::kLeastType * std::min(list.width_px, list.height_px));
-        EXPECT_LE(text->origin.x + width_em * text->size_px, plate->bounds.x + plate->bounds.width)
+        EXPECT_LE(text->origin.x + width_em * text->size_px, plate->bounds.right())
             << text->text << " in " << size;
         length_em += width_em;
       }

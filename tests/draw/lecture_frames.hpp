@@ -70,11 +70,11 @@ std::vector<Item> items_of(const std::vector<DrawItem>& items, ItemId thing) {
 
 /// What the loupe shows, in pixels of its inset.
 struct SeenLoupe {
-  Rectangle bounds;  ///< in the frame
+  Rect bounds;  ///< in the frame
   double opacity = 0;
   double face = 0;  ///< of the wall
-  Rectangle blue;
-  Rectangle red;
+  Rect blue;
+  Rect red;
   std::string zoom;  ///< as it is written, without its power
   DrawList list;
 };
@@ -86,7 +86,7 @@ inline std::optional<SeenLoupe> loupe_in(const DrawList& frame) {
   SeenLoupe seen{group.bounds, group.opacity, 0, {}, {}, {}, *group.list};
   const PlateItem scenery = items_of<PlateItem>(seen.list.items, ItemId::wall).front();
   for (const auto& line : items_of<RectangleItem>(scenery.plate->items, ItemId::wall)) {
-    if (line.bounds.height > line.bounds.width) seen.face = line.bounds.x + line.bounds.width;
+    if (line.bounds.height > line.bounds.width) seen.face = line.bounds.right();
   }
   seen.blue = items_of<RectangleItem>(seen.list.items, ItemId::blue_block).front().bounds;
   seen.red = items_of<RectangleItem>(seen.list.items, ItemId::red_block).front().bounds;

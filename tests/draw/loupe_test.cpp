@@ -112,7 +112,7 @@ TEST(Loupe, KeepsRedsFaceInside) {
         ++seen_times;
         EXPECT_GT(seen->red.x, seen->face + seen->blue.width);
         EXPECT_LT(seen->red.x, seen->bounds.width - 0.03 * 720);
-        EXPECT_GT(seen->red.x + seen->red.width, seen->bounds.width);
+        EXPECT_GT(seen->red.right(), seen->bounds.width);
       }
       EXPECT_GT(seen_times, 20);
     }
@@ -248,7 +248,7 @@ TEST(Loupe, ShowsTheWayThatBlueSweepsWhereFramesMissItsHits) {
     EXPECT_EQ(blue.fill->alpha == 255, alpha == 0);
     if (red.size() > 1) {
       EXPECT_NEAR(red.back().bounds.x, seen->face, 1e-9);
-      EXPECT_NEAR(red.back().bounds.x + red.back().bounds.width, seen->red.x, 1e-9);
+      EXPECT_NEAR(red.back().bounds.right(), seen->red.x, 1e-9);
     }
     before = alpha;
   }
@@ -303,8 +303,8 @@ struct Taken {
   double bottom;
 };
 
-Taken taken(std::string what, const Rectangle& r) {
-  return {std::move(what), r.x, r.y, r.x + r.width, r.y + r.height};
+Taken taken(std::string what, const Rect& r) {
+  return {std::move(what), r.x, r.y, r.right(), r.bottom()};
 }
 
 /// What the loupe must not cover: texts and blocks. Its own texts are checked against these too.
@@ -364,7 +364,7 @@ TEST(Loupe, HasRoomBesideTwoDiagrams) {
 /// The lines to the inset begin at 60 % of red's width, and go away from the gap.
 void expect_lines_clear_of_the_gap(const DrawList& frame) {
   constexpr std::size_t kFirstLine = 100;
-  const Rectangle red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+  const Rect red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
   int lines = 0;
   for (const PathItem& line : items_of<PathItem>(frame.items, ItemId::wall)) {
     if (line.id < nth(ItemId::wall, kFirstLine)) continue;
@@ -372,7 +372,7 @@ void expect_lines_clear_of_the_gap(const DrawList& frame) {
     const auto points = line.points.view();
     EXPECT_NEAR(points[0].x, red.x + 0.6 * red.width, 1);
     const bool is_above = std::max(points[0].y, points[1].y) < red.y;
-    EXPECT_TRUE(is_above || points[1].x > red.x + red.width);
+    EXPECT_TRUE(is_above || points[1].x > red.right());
   }
   EXPECT_EQ(lines, loupe_in(frame) ? 2 : 0);
 }

@@ -25,8 +25,8 @@ std::vector<CaptionedPicture> green(int count, int width_px, int height_px,
           {DrawList{width_px, height_px, Color{0, 0, 0}, {large}}, caption}};
 }
 
-std::vector<Rectangle> places_on(const DrawList& page) {
-  std::vector<Rectangle> places;
+std::vector<Rect> places_on(const DrawList& page) {
+  std::vector<Rect> places;
   for (const DrawItem& item : page.items) {
     if (const auto* group = std::get_if<GroupItem>(&item)) places.push_back(group->bounds);
   }
@@ -38,16 +38,15 @@ TEST(Sheet, PicturesKeepTheirShapeAndDoNotOverlap) {
     for (const auto& [width, height] : {std::pair{1920, 1080}, {1080, 1920}, {4000, 10}}) {
       const auto places = places_on(arrange(green(count, width, height), 842, 595));
       ASSERT_EQ(places.size(), std::size_t(count));
-      for (const Rectangle& a : places) {
+      for (const Rect& a : places) {
         EXPECT_NEAR(a.width / a.height, double(width) / height, 1e-6 * width);
         EXPECT_GE(a.x, 0.04 * 595);
         EXPECT_GE(a.y, 0.04 * 595);
-        EXPECT_LE(a.x + a.width, 842 - 0.04 * 595);
-        EXPECT_LE(a.y + a.height, 595 - 0.04 * 595);
-        for (const Rectangle& b : places) {
+        EXPECT_LE(a.right(), 842 - 0.04 * 595);
+        EXPECT_LE(a.bottom(), 595 - 0.04 * 595);
+        for (const Rect& b : places) {
           if (&a == &b) continue;
-          EXPECT_TRUE(a.x + a.width < b.x || b.x + b.width < a.x || a.y + a.height < b.y ||
-                      b.y + b.height < a.y);
+          EXPECT_TRUE(a.right() < b.x || b.right() < a.x || a.bottom() < b.y || b.bottom() < a.y);
         }
       }
     }
@@ -63,7 +62,7 @@ std::vector<TextItem> captions_on(const DrawList& page) {
 }
 
 /// Captions have their size, are inside of the margins, below their pictures and apart.
-void expect_legible(const std::vector<TextItem>& captions, const std::vector<Rectangle>& places,
+void expect_legible(const std::vector<TextItem>& captions, const std::vector<Rect>& places,
                     double width_px, double height_px) {
   const Font font;
   const double side = std::min(width_px, height_px);
@@ -75,9 +74,9 @@ void expect_legible(const std::vector<TextItem>& captions, const std::vector<Rec
     EXPECT_GE(caption.origin.x, margin);
     EXPECT_LE(caption.origin.x + width, width_px - margin);
     EXPECT_LE(caption.origin.y + 0.25 * caption.size_px, height_px - margin);
-    const Rectangle& place = places[i];
+    const Rect& place = places[i];
     EXPECT_NEAR(caption.origin.x + width / 2, place.x + place.width / 2, 1e-6);
-    EXPECT_GT(caption.origin.y - 0.8 * caption.size_px, place.y + place.height);
+    EXPECT_GT(caption.origin.y - 0.8 * caption.size_px, place.bottom());
     if (i + 1 == captions.size() || captions[i + 1].origin.y != caption.origin.y) continue;
     EXPECT_GT(captions[i + 1].origin.x, caption.origin.x + width);
   }
@@ -132,7 +131,7 @@ TEST(Sheet, CutsPicturesOffAtTheirEdge) {
   const auto at = [&](double x, double y) {
     return image.words[std::size_t(y) * 800 + std::size_t(x)] & 0xFFFFFF;
   };
-  for (const Rectangle& place : places_on(page)) {
+  for (const Rect& place : places_on(page)) {
     EXPECT_EQ(at(place.x + place.width / 2, place.y + place.height / 2), 0x0AC81Eu);
     EXPECT_EQ(at(place.x - 4, place.y + place.height / 2), 0xFFFFFFu);
     EXPECT_EQ(at(place.x + place.width / 2, place.y - 4), 0xFFFFFFu);
@@ -156,7 +155,7 @@ TEST(Sheet, ShowsWhatMovesSharpAtAnyScale) {
                          MovingShapesItem{ItemId::blue_block, {0.5, 0.5}, {{block(7), places}}}}};
     const DrawList page = arrange({{list, "a"}}, 400, 300);
     const Image image = draw_pixels(page);
-    const Rectangle place = places_on(page).front();
+    const Rect place = places_on(page).front();
     for (int x = 0; x < 10; ++x) {
       const auto column = std::size_t(place.x + (x + 0.5) / 10 * place.width);
       const auto row = std::size_t(place.y + 1.5 / 5 * place.height);

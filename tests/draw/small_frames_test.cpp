@@ -64,10 +64,10 @@ class Checker {
     if (!is_inside) problem += std::string(what) + " leaves the frame; ";
   }
   void check_item(const RectangleItem& item) {
-    const Rectangle& r = item.bounds;
+    const Rect& r = item.bounds;
     if (!(r.width >= 0 && r.height >= 0)) problem += "a rectangle of negative size; ";
     if (item.id == ItemId::wall) {
-      check_inside(r.x, r.y, r.x + r.width, r.y + r.height, "the wall");
+      check_inside(r.x, r.y, r.right(), r.bottom(), "the wall");
     }
     if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
   }
@@ -80,17 +80,17 @@ class Checker {
   }
   void check_item(const PathItem& item) {
     if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
-    const Rectangle& r = item.points.bounds();
-    check_inside(r.x, r.y, r.x + r.width, r.y + r.height, "a path");
+    const Rect& r = item.points.bounds();
+    check_inside(r.x, r.y, r.right(), r.bottom(), "a path");
   }
   void check_item(const DiscItem& item) {
     if (!(item.radius > 0)) problem += "a dot without a radius; ";
     check_inside(item.centre.x, item.centre.y, item.centre.x, item.centre.y, "a dot");
   }
   void check_item(const ImageItem& item) {
-    const Rectangle& r = item.bounds;
+    const Rect& r = item.bounds;
     if (!(r.width > 0 && r.height > 0)) problem += "a picture without size; ";
-    check_inside(r.x, r.y, r.x + r.width, r.y + r.height, "a picture");
+    check_inside(r.x, r.y, r.right(), r.bottom(), "a picture");
   }
   void check_item(const PlateItem& item) { check(item.plate->items); }
   void check_item(const GroupItem& /*item*/) {}

@@ -79,8 +79,7 @@ TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
       EXPECT_GT(left, 0);
       EXPECT_GE(plan.header_bottom_px, plan.counter.pi_baseline_px);
       // The counter is no obstacle above the stage, unless its line is wider.
-      EXPECT_EQ(left > plan.stage.x + plan.stage.width - sizes.margin,
-                pi_px < 300 && slow_px < 300);
+      EXPECT_EQ(left > plan.stage.right() - sizes.margin, pi_px < 300 && slow_px < 300);
     }
   }
 }

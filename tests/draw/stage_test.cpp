@@ -37,7 +37,7 @@ const TextItem& text(const DrawList& list, ItemId id) {
 }
 
 Layout lay_out(const Scene& scene, const Integer& longest_count) {
-  const Rectangle whole{0, 0, double(scene.view.width_px), double(scene.view.height_px)};
+  const Rect whole{0, 0, double(scene.view.width_px), double(scene.view.height_px)};
   return lay_out_article(Drawing(scene).context, longest_count, whole);
 }
 
@@ -45,7 +45,7 @@ DrawList compose(const Scene& scene, const BlockState& state) {
   return Composition(scene, *make_collision_log(scene.system)).frame({state});
 }
 
-double right(const Rectangle& r) { return r.x + r.width; }
+double right(const Rect& r) { return r.right(); }
 
 TEST(Stage, BlocksTouchWhereTheyCollide) {
   const Scene scene = scene_of(3, 1920, 1080);
@@ -66,9 +66,9 @@ TEST(Stage, BlocksStandOnOneBase) {
     scene.show.overlays = {Overlay::masses};
     const auto log = make_collision_log(scene.system);
     const DrawList list = compose(scene, state_after(*log, 3));
-    const Rectangle red = rectangle(list, ItemId::red_block).bounds;
-    const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
-    EXPECT_NEAR(red.y + red.height, blue.y + blue.height, 1e-9) << width;
+    const Rect red = rectangle(list, ItemId::red_block).bounds;
+    const Rect blue = rectangle(list, ItemId::blue_block).bounds;
+    EXPECT_NEAR(red.bottom(), blue.bottom(), 1e-9) << width;
     const auto middle = [](const TextItem& label) {
       return label.origin.y - 0.365 * label.size_px;
     };
@@ -91,11 +91,11 @@ TEST(Stage, TheHatchStaysBehindTheFaceOfTheWall) {
       scene.view.theme = theme;
       const DrawList list = compose(scene, make_collision_log(scene.system)->blocks_at(0));
       const std::vector<DrawItem>& wall = std::get<PlateItem>(list.items.front()).plate->items;
-      const Rectangle face = std::get<RectangleItem>(wall.back()).bounds;
+      const Rect face = std::get<RectangleItem>(wall.back()).bounds;
       ASSERT_GT(wall.size(), 5U);
       for (std::size_t i = 0; i + 1 < wall.size(); ++i) {
         const auto& line = std::get<PathItem>(wall[i]);
-        const Rectangle bounds = line.points.bounds();
+        const Rect bounds = line.points.bounds();
         // The corner of the end of a line of 45 degrees.
         const double corner = right(bounds) + line.stroke->width_px / 2 * std::sqrt(0.5);
         EXPECT_LE(corner, right(face)) << i << " in " << width << 'x' << height;
@@ -143,13 +143,13 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
       const Scene scene = scene_of(digits, width, height);
       const auto log = make_collision_log(scene.system);
       const DrawList list = compose(scene, state_after(*log, log->last()));
-      const Rectangle wall = rectangle(list, ItemId::wall).bounds;
+      const Rect wall = rectangle(list, ItemId::wall).bounds;
       const TextItem& label = text(list, ItemId::label);
       const TextItem& count = text(list, ItemId::count);
       const double end = count.origin.x + font.width_em(count.text) * count.size_px;
       EXPECT_GT(wall.width, 0);
       EXPECT_GE(wall.x, 0);
-      EXPECT_LE(wall.y + wall.height, height);
+      EXPECT_LE(wall.bottom(), height);
       EXPECT_GE(label.origin.x, 0);
       EXPECT_LE(end, width);
       EXPECT_GE(label.origin.y - label.size_px * 0.73, 0);
@@ -217,8 +217,8 @@ TEST(Stage, EdgesThatDoNotMoveAreSharp) {
     const Scene scene = scene_of(3, width, height);
     const auto log = make_collision_log(scene.system);
     const DrawList list = compose(scene, log->blocks_at(4));
-    const Rectangle wall = rectangle(list, ItemId::wall).bounds;
-    const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
+    const Rect wall = rectangle(list, ItemId::wall).bounds;
+    const Rect blue = rectangle(list, ItemId::blue_block).bounds;
     EXPECT_TRUE(is_whole(wall.x) && is_whole(wall.y) && is_whole(right(wall)));
     EXPECT_TRUE(is_whole(blue.y) && is_whole(blue.height));
   }
@@ -232,13 +232,13 @@ TEST(Stage, FollowsTheScenesGeometry) {
   const auto log = make_collision_log(scene.system);
   const Layout layout = lay_out(scene, log->last());
   const DrawList list = compose(scene, log->blocks_at(0));
-  const Rectangle wall = rectangle(list, ItemId::wall).bounds;
-  const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
-  const Rectangle red = rectangle(list, ItemId::red_block).bounds;
+  const Rect wall = rectangle(list, ItemId::wall).bounds;
+  const Rect blue = rectangle(list, ItemId::blue_block).bounds;
+  const Rect red = rectangle(list, ItemId::red_block).bounds;
   EXPECT_NEAR(blue.width, 0.5 * layout.scale, 1e-9);
   EXPECT_NEAR(red.height, 2 * layout.scale, 1e-9);
   EXPECT_NEAR(blue.x - right(wall), 2.25 * layout.scale, 1e-9);
-  EXPECT_NEAR(blue.y + blue.height, red.y + red.height, 1e-9);
+  EXPECT_NEAR(blue.bottom(), red.bottom(), 1e-9);
 }
 
 }  // namespace

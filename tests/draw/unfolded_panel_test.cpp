@@ -313,21 +313,21 @@ TEST(Unfolded, SaysTheAngle) {
 class UnfoldedSizes : public testing::TestWithParam<const char*> {};
 
 /// The width of an item's text by its own typeface.
-Rectangle box_of(const TextItem& text, const Fonts& fonts) {
+Rect box_of(const TextItem& text, const Fonts& fonts) {
   return {text.origin.x, text.origin.y - 0.76 * text.size_px,
           fonts.of(text.face).width_em(text.text) * text.size_px, 0.96 * text.size_px};
 }
 
-bool overlap(const Rectangle& a, const Rectangle& b) {
+bool overlap(const Rect& a, const Rect& b) {
   constexpr double kTouch_px = 0.5;
-  return a.x < b.x + b.width - kTouch_px && b.x < a.x + a.width - kTouch_px &&
-         a.y < b.y + b.height - kTouch_px && b.y < a.y + a.height - kTouch_px;
+  return a.x < b.right() - kTouch_px && b.x < a.right() - kTouch_px &&
+         a.y < b.bottom() - kTouch_px && b.y < a.bottom() - kTouch_px;
 }
 
-void expect_inside(const DrawList& list, const Rectangle& place) {
+void expect_inside(const DrawList& list, const Rect& place) {
   const auto is_inside = [&](double x, double y, double around) {
-    return x - around >= place.x && x + around <= place.x + place.width && y - around >= place.y &&
-           y + around <= place.y + place.height;
+    return x - around >= place.x && x + around <= place.right() && y - around >= place.y &&
+           y + around <= place.bottom();
   };
   for (const PathItem& path : all_of<PathItem>(list)) {
     for (const Point& point : path.points.view()) EXPECT_TRUE(is_inside(point.x, point.y, 0));
@@ -347,9 +347,8 @@ TEST_P(UnfoldedSizes, AllIsInsideAndNoTextsMeet) {
         const DrawList list = pictures.at(pictures.end() * i / 4);
         const std::vector<TextItem> texts = all_of<TextItem>(list);
         for (std::size_t a = 0; a < texts.size(); ++a) {
-          const Rectangle box = box_of(texts[a], fonts);
-          EXPECT_TRUE(box.x >= 0 && box.x + box.width <= list.width_px &&
-                      box.y + box.height <= list.height_px)
+          const Rect box = box_of(texts[a], fonts);
+          EXPECT_TRUE(box.x >= 0 && box.right() <= list.width_px && box.bottom() <= list.height_px)
               << texts[a].text;
           for (std::size_t b = 0; b < a; ++b) {
             EXPECT_FALSE(overlap(box, box_of(texts[b], fonts)))

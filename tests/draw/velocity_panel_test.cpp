@@ -94,7 +94,7 @@ struct Figure {
   }
   const Point& present() const { return discs.back().centre; }
 
-  Rectangle bounds;
+  Rect bounds;
   std::vector<PathItem> paths;
   std::vector<DiscItem> discs;
   std::vector<TextItem> texts;
@@ -108,7 +108,7 @@ struct Frame {
     const auto outline = std::ranges::find_if(figure.paths, [](const PathItem& path) {
       return path.closed && path.stroke && path.stroke->color == kPalette.muted;
     });
-    const Rectangle& box = outline->points.bounds();
+    const Rect& box = outline->points.bounds();
     red = blue = box.width / 2;
     centre = {box.x + red, figure.lines_of(kPalette.grid).front().points.view()[0].y};
   }
@@ -388,20 +388,20 @@ struct Shape {
 
 class Shapes : public testing::TestWithParam<Shape> {};
 
-Rectangle box_of(const TextItem& text, const Fonts& fonts) {
+Rect box_of(const TextItem& text, const Fonts& fonts) {
   return {text.origin.x, text.origin.y - 0.74 * text.size_px,
           fonts.of(text.face).width_em(text.text) * text.size_px, 0.95 * text.size_px};
 }
 
-bool holds(const Rectangle& outer, const Point& point) {
-  return point.x >= outer.x && point.x <= outer.x + outer.width && point.y >= outer.y &&
-         point.y <= outer.y + outer.height;
+bool holds(const Rect& outer, const Point& point) {
+  return point.x >= outer.x && point.x <= outer.right() && point.y >= outer.y &&
+         point.y <= outer.bottom();
 }
 
-bool overlap(const Rectangle& a, const Rectangle& b) {
+bool overlap(const Rect& a, const Rect& b) {
   constexpr double kTouch_px = 0.5;
-  return a.x < b.x + b.width - kTouch_px && b.x < a.x + a.width - kTouch_px &&
-         a.y < b.y + b.height - kTouch_px && b.y < a.y + a.height - kTouch_px;
+  return a.x < b.right() - kTouch_px && b.x < a.right() - kTouch_px &&
+         a.y < b.bottom() - kTouch_px && b.y < a.bottom() - kTouch_px;
 }
 
 /// The items of the first panel alone.
@@ -429,9 +429,9 @@ TEST_P(Shapes, HoldThePanelsWithoutOverlaps) {
           }
         }
         for (std::size_t i = 0; i < figure.texts.size(); ++i) {
-          const Rectangle box = box_of(figure.texts[i], fonts);
+          const Rect box = box_of(figure.texts[i], fonts);
           EXPECT_TRUE(holds(figure.bounds, {box.x, box.y}) &&
-                      holds(figure.bounds, {box.x + box.width, box.y + box.height}))
+                      holds(figure.bounds, {box.right(), box.bottom()}))
               << digits << ' ' << figure.texts[i].text;
           for (std::size_t k = 0; k < i; ++k) {
             EXPECT_FALSE(overlap(box, box_of(figure.texts[k], fonts)))

@@ -153,7 +153,7 @@ struct MovingRow {
     for (const int i : order()) {
       std::vector<Point> places;
       for (int k = 0; k < moments; ++k) {
-        const Rectangle bounds = block(i, (k + 0.5) / moments).bounds;
+        const Rect bounds = block(i, (k + 0.5) / moments).bounds;
         places.push_back({bounds.x, bounds.y});
       }
       item.shapes.push_back({block(i, 0), places});

@@ -31,7 +31,7 @@ Scene scene_of(int digits, FrameSize size, const Rational& shutter) {
 }
 
 /// The bounds of a block at an instant.
-Rectangle bounds_of(const DrawList& list, ItemId block) {
+Rect bounds_of(const DrawList& list, ItemId block) {
   for (const DrawItem& item : list.items) {
     const auto* rectangle = std::get_if<RectangleItem>(&item);
     if (rectangle != nullptr && rectangle->id == block) return rectangle->bounds;
@@ -45,9 +45,9 @@ std::vector<int> rows_of(const Scene& scene) {
   const DrawList list = Composition(scene, *log).frame({log->blocks_at(Rational(0))});
   std::set<int> rows;
   for (const ItemId block : {ItemId::red_block, ItemId::blue_block}) {
-    const Rectangle bounds = bounds_of(list, block);
+    const Rect bounds = bounds_of(list, block);
     const int top = static_cast<int>(std::floor(bounds.y));
-    const int bottom = static_cast<int>(std::ceil(bounds.y + bounds.height));
+    const int bottom = static_cast<int>(std::ceil(bounds.bottom()));
     rows.insert((top + bottom) / 2);
     for (int i = -1; i < 5; ++i) rows.insert({top + i, bottom - i});
   }
@@ -191,9 +191,9 @@ TEST(Shutter, BlueAtRestIsAsInTheInstant) {
   Scene open = scene_of(3, {333, 217}, 1);
   Scene closed = open;
   closed.view.shutter = 0;
-  const Rectangle blue = bounds_of(Film(closed).frame(0), ItemId::blue_block);
+  const Rect blue = bounds_of(Film(closed).frame(0), ItemId::blue_block);
   const int left = static_cast<int>(blue.x) - 2;
-  const int right = static_cast<int>(blue.x + blue.width) + 2;
+  const int right = static_cast<int>(blue.right()) + 2;
   FrameRenderer exposed(open);
   FrameRenderer instants(closed);
   for (const std::int64_t frame : {0, 20, 60}) {

@@ -15,7 +15,7 @@ constexpr double kLeastLogoLength_px = 3;
 
 }  // namespace
 
-ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) {
+ImageItem place_logo(const Rect& place, std::shared_ptr<const Image> logo) {
   const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
   const double width = scale * logo->width_px;
   const double height = scale * logo->height_px;
@@ -26,7 +26,7 @@ ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) 
         logo->width_px, logo->height_px, width, height));
   }
   return {ItemId::logo,
-          {place.x + place.width - width, place.y + place.height - height, width, height},
+          {place.right() - width, place.bottom() - height, width, height},
           std::move(logo)};
 }
 

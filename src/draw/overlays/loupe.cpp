@@ -201,12 +201,11 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
                    bounds_.y + bounds_.height / 2 + kHalfFigure_em * sizes_.mass};
   } else {
     const double row = slow_text_ ? loupe_style::kRow_em * sizes_.text : 0;
-    zoom_right_ = {bounds_.x + bounds_.width - loupe_style::kInside * short_side,
-                   bounds_.y + baseline + row};
+    zoom_right_ = {bounds_.right() - loupe_style::kInside * short_side, bounds_.y + baseline + row};
   }
   stage_ = layout;
-  const double right = bounds_.x + bounds_.width;
-  const double bottom = bounds_.y + bounds_.height;
+  const double right = bounds_.right();
+  const double bottom = bounds_.bottom();
   if (bottom < layout.top_px()) {
     corners_ = {Point{bounds_.x, bottom}, Point{right, bottom}};
     lines_y_ = bottom + loupe_style::kOutside * short_side;  // above all that is above red

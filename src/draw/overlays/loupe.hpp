@@ -78,7 +78,7 @@ class LoupeInset {
   std::vector<Formula> powers_;  ///< of ten, from the least one that is written as a power
   double widest_zoom_px_ = 0;
   std::function<std::string(const FrameState&)> slow_text_;  ///< may be empty
-  Rectangle bounds_;                                         ///< in whole pixels of the frame
+  Rect bounds_;                                              ///< in whole pixels of the frame
   Point zoom_right_;  ///< right end of the zoom's baseline, in the frame
   // Lines go from a place at red to two corners of the inset; in the frame.
   Layout stage_;

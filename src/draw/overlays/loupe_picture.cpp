@@ -48,7 +48,7 @@ double LoupeInset::zoom(double gap) const {
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const Rectangle red = stage_.at(blocks_.red_id, shown);
+  const Rect red = stage_.at(blocks_.red_id, shown);
   // By whole pixels, they stay as they are while red hardly moves.
   const Point from{std::round(red.x + kLinesInRed * red.width), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};

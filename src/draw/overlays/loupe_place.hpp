@@ -9,7 +9,7 @@
 namespace piblocks {
 
 struct LoupePlace {
-  Rectangle bounds;    ///< in whole pixels of the frame
+  Rect bounds;         ///< in whole pixels of the frame
   double rows_px = 0;  ///< height of its rows of text
   bool is_zoom_beside = true;
 };

@@ -17,7 +17,7 @@ Drawable ruler(const DrawingContext& context);
 
 /// The logo as large as fits, in the lower right corner of its place.
 /// @throws UsageError if it would be a speck.
-ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo);
+ImageItem place_logo(const Rect& place, std::shared_ptr<const Image> logo);
 
 /// What it says; empty while time runs as elsewhere.
 struct SlowMotionLabel {

@@ -168,7 +168,7 @@ class ConservationPanel {
     if (walls.right || has_fixed) most_ = std::max(most_, momenta_.sum + momenta_.most_of_all);
   }
 
-  const Rectangle& inside() const { return diagram_.inside(); }
+  const Rect& inside() const { return diagram_.inside(); }
   static double height_em(std::size_t rows) {
     return kEnergyRow_em + kMomentumRow_em * double(rows);
   }
@@ -202,11 +202,11 @@ class ConservationPanel {
     const double figure =
         std::max(widths_.width_em(text_of(least_)), widths_.width_em(text_of(most_)));
     left_ = std::round(inside().x + (label + kBesideBars_em) * em);
-    right_ = std::round(inside().x + inside().width - (figure + kBesideBars_em) * em);
+    right_ = std::round(inside().right() - (figure + kBesideBars_em) * em);
     has_figures_ = right_ - left_ >= kLeastBars_em * em;
-    if (!has_figures_) right_ = std::round(inside().x + inside().width);
+    if (!has_figures_) right_ = std::round(inside().right());
     // The bar of energy ends where the figures do.
-    energy_right_ = std::round(inside().x + inside().width);
+    energy_right_ = std::round(inside().right());
   }
 
   double baseline(double top, double height) const {
@@ -218,14 +218,14 @@ class ConservationPanel {
     return left_ + share * (right_ - left_);
   }
 
-  Rectangle bar_of(std::size_t row, double value) const {
+  Rect bar_of(std::size_t row, double value) const {
     const double zero = x_of(0);
     const double end = x_of(value);
     const double height = std::round(kBarHeight * row_px_);
     return {std::min(zero, end), std::round(row_top(row) + (row_px_ - height) / 2),
             std::abs(end - zero), height};
   }
-  Rectangle energy_bar() const {
+  Rect energy_bar() const {
     const double height = std::round(kEnergyBarHeight * energy_px_);
     return {left_, std::round(diagram_.inside().y + (energy_px_ - height) / 2),
             energy_right_ - left_, height};
@@ -235,7 +235,7 @@ class ConservationPanel {
   /// zero, the sum.
   void add_still() {
     const Palette& palette = diagram_.palette();
-    const Rectangle bar = energy_bar();
+    const Rect bar = energy_bar();
     const double left = inside().x;
     diagram_.text("energy", {left, baseline(inside().y, energy_px_)}, 0, palette.muted);
     if (moves_) {
@@ -258,13 +258,12 @@ class ConservationPanel {
     const std::string text = text_of(momenta_.sum);
     const double width = widths_.width_em(text) * diagram_.text_px();
     diagram_.formula(diagram_.setter().digits(text),
-                     {inside().x + inside().width - width, baseline(row_top(sum), row_px_)}, 0,
-                     palette.muted);
+                     {inside().right() - width, baseline(row_top(sum), row_px_)}, 0, palette.muted);
   }
 
   /// Parts of the bar from the last block to the first, which has what is left.
   void add_energy(const std::vector<BodyMotion>& bodies, std::vector<DrawItem>& items) const {
-    const Rectangle bar = energy_bar();
+    const Rect bar = energy_bar();
     const double em = diagram_.text_px();
     const std::size_t count = bodies.size();
     std::vector<DrawItem> figures;
@@ -272,8 +271,8 @@ class ConservationPanel {
     for (std::size_t i = count; i-- > 0;) {
       const double root = mpf_class(energy_factors_[i] * bodies[i].velocity[0]).get_d();
       const double end = i == 0 ? 1 : std::clamp(begin + root * root, begin, 1.0);
-      const Rectangle part{bar.x + begin * bar.width, bar.y, end * bar.width - begin * bar.width,
-                           bar.height};
+      const Rect part{bar.x + begin * bar.width, bar.y, end * bar.width - begin * bar.width,
+                      bar.height};
       if (i > 0) {
         items.emplace_back(
             RectangleItem{diagram_.moving(count - 1 - i), part, colors_[i].fill, std::nullopt});
@@ -284,7 +283,7 @@ class ConservationPanel {
       const double width_em = widths_.width_em(text) + kInBar_em;
       if ((width_em + kInBar_em) * em <= part.width) {
         // That of the last part is at its right end.
-        const double left = i == 0 ? part.x + part.width - width_em * em : part.x + kInBar_em * em;
+        const double left = i == 0 ? part.right() - width_em * em : part.x + kInBar_em * em;
         figures.emplace_back(TextItem{diagram_.moving(2 * count - 2 - i),
                                       {left, baseline(bar.y, bar.height)},
                                       text,
@@ -304,7 +303,7 @@ class ConservationPanel {
     if (!has_figures_) return;
     std::string text = text_of(value);
     const double em = diagram_.text_px();
-    const double right = inside().x + inside().width;
+    const double right = inside().right();
     items.emplace_back(
         TextItem{diagram_.moving(n),
                  {right - widths_.width_em(text) * em, baseline(row_top(row), row_px_)},

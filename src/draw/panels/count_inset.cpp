@@ -31,9 +31,8 @@ bool CountInset::add_labels(const Diagram& diagram, double room_px,
   if (part_.count_factor.value() > 1) count = set.text("count ×" + part_.count_factor.text());
   if (std::max(time.width_em(), count.width_em()) * em > room_px) return false;
   const ItemId id = diagram.moving(0);
-  const double bottom = frame_.y + frame_.height;
   time.add_to(items, id, {frame_.x, frame_.y - kAboveInset_em * em}, em, color);
-  count.add_to(items, id, {frame_.x, bottom + kBelowInset_em * em}, em, color);
+  count.add_to(items, id, {frame_.x, frame_.bottom() + kBelowInset_em * em}, em, color);
   return true;
 }
 
@@ -41,24 +40,20 @@ void CountInset::add_frame(const Diagram& diagram, const Point& from,
                            std::vector<DrawItem>& items) const {
   const Color& color = diagram.palette().muted;
   const double em = diagram.text_px();
-  const auto& [x, y, width, height] = frame_;
   // The area below the curve must not be seen behind it and its labels.
-  const double above = y - kLabel_em * em;
-  items.emplace_back(RectangleItem{diagram.moving(0),
-                                   {x, above, width, height + 2 * kLabel_em * em},
-                                   diagram.palette().background,
-                                   std::nullopt});
-  const bool is_left = x < from.x;
-  const double side = is_left ? x + width : x;
+  items.emplace_back(RectangleItem{diagram.moving(0), frame_.grown(0, kLabel_em * em),
+                                   diagram.palette().background, std::nullopt});
+  const bool is_left = frame_.x < from.x;
+  const double side = is_left ? frame_.right() : frame_.x;
   const double half = (is_left ? kMarked_em : -kMarked_em) * em;
   const auto add = [&](std::vector<Point> points) {
     items.emplace_back(diagram.moving_line(0, std::move(points), color));
   };
-  add({{side, y}, {from.x - half, from.y - std::abs(half)}});
-  add({{side, y + height}, {from.x - half, from.y + std::abs(half)}});
-  for (const Rectangle& box :
-       {frame_, Rectangle{from.x - half, from.y - std::abs(half), 2 * half, 2 * std::abs(half)}}) {
-    std::vector<Point> around = corners_of(box);
+  add({{side, frame_.y}, {from.x - half, from.y - std::abs(half)}});
+  add({{side, frame_.bottom()}, {from.x - half, from.y + std::abs(half)}});
+  for (const Rect& box :
+       {frame_, Rect{from.x - half, from.y - std::abs(half), 2 * half, 2 * std::abs(half)}}) {
+    std::vector<Point> around = box.corners();
     around.push_back(around.front());
     add(std::move(around));
   }

@@ -17,7 +17,7 @@ class CountInset {
   static constexpr double kLabel_em = 1.25;
 
   /// @param count_px  height of a count in the curve that is not enlarged
-  CountInset(EnlargedTurn part, const Rectangle& frame, double count_px)
+  CountInset(EnlargedTurn part, const Rect& frame, double count_px)
       : part_(std::move(part)), frame_(frame), count_px_(count_px) {}
 
   bool shows(const Rational& time) const {
@@ -36,7 +36,7 @@ class CountInset {
 
  private:
   EnlargedTurn part_;
-  Rectangle frame_;
+  Rect frame_;
   double count_px_;
 };
 

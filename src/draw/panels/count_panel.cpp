@@ -80,7 +80,7 @@ class CountPanel {
         diagram_(context, place, titles_of_count(context, turn_)),
         scale_(context.log, span_, context.scene.show.base),
         axis_(context, diagram_, indent_em(context)) {
-    const Rectangle& plot = axis_.plot();
+    const Rect& plot = axis_.plot();
     const int columns = std::max(1, static_cast<int>(std::ceil(plot.width)));
     for (const auto& [share, count] : count_curve(context.log, span_, columns)) {
       curve_.push_back({plot.x + share * plot.width, y_of(count)});
@@ -136,7 +136,7 @@ class CountPanel {
 
   /// The room for figures and their ticks, left of the axis.
   double indent_em(const DrawingContext& context) {
-    const Rectangle& inside = diagram_.inside();
+    const Rect& inside = diagram_.inside();
     const Rational least = Rational(scale_.high - scale_.low) *
                            Rational(kBetweenCounts_em * diagram_.text_px()) /
                            Rational(std::max(1.0, inside.height - 2 * diagram_.text_px()));
@@ -200,9 +200,9 @@ class CountPanel {
 
   /// A place for the inset above the curve, left of the turn, or below it, right of the turn; of
   /// no width if there is no room.
-  Rectangle inset_frame(double turn_x) const {
+  Rect inset_frame(double turn_x) const {
     const double em = diagram_.text_px();
-    const Rectangle& plot = axis_.plot();
+    const Rect& plot = axis_.plot();
     const double widest = kInsetWidest_em * em;
     const double lowest = axis_.bottom() - kInsetFoot_em * em;
     // Of the frame with its labels.
@@ -212,7 +212,7 @@ class CountPanel {
     double bottom = std::min(height_at(right) - kInsetFoot_em * em, lowest);
     if (right - left < kInsetLeastWidth_em * em) {
       left = turn_x + kFromTurn_em * em;
-      right = std::min(plot.x + plot.width, left + widest);
+      right = std::min(plot.right(), left + widest);
       top = height_at(left) + kInsetFoot_em * em;
       bottom = lowest;
     }
@@ -220,15 +220,15 @@ class CountPanel {
     bottom -= CountInset::kLabel_em * em;
     const bool has_room =
         right - left >= kInsetLeastWidth_em * em && bottom - top >= kInsetLeastHeight_em * em;
-    return has_room ? Rectangle{left, top, right - left, bottom - top} : Rectangle{};
+    return has_room ? Rect{left, top, right - left, bottom - top} : Rect{};
   }
 
   void add_inset(const DrawingContext& context, std::vector<DrawItem>& items) {
     if (!turn_.is_shown || context.pair() == nullptr) return;
     const double turn_x = axis_.x_of(to_double(*turn_of(context.log)));
-    const Rectangle frame = inset_frame(turn_x);
+    const Rect frame = inset_frame(turn_x);
     if (frame.width == 0) return;
-    const Rectangle& plot = axis_.plot();
+    const Rect& plot = axis_.plot();
     const double em = diagram_.text_px();
     const Integer counts = scale_.high - scale_.low;
     const auto part = enlarged_turn(

@@ -235,7 +235,7 @@ class MarginFigure {
 
   /// What is needed, and before it, if there is room, what theta and s are.
   bool add_notes() {
-    const double room = (diagram_.inside().y + diagram_.inside().height - y_) / em_ - kFromLine;
+    const double room = (diagram_.inside().bottom() - y_) / em_ - kFromLine;
     const auto fits = [&](const Formula& line) { return width(line) <= right_ - left_; };
     double baseline = y_ + (kFromLine + kToNotes) * em_;
     for (const std::string& text : words_.needs()) {

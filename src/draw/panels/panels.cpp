@@ -34,11 +34,6 @@ std::vector<Point> Circle::arc(double from, double to) const {
   return points;
 }
 
-std::vector<Point> corners_of(const Rectangle& box) {
-  const auto& [x, y, width, height] = box;
-  return {{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
-}
-
 bool shows_a_turn(const DrawingContext& context) {
   if (context.pair() == nullptr) return false;
   const Span span = span_of(context.scene, context.log);
@@ -56,7 +51,7 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place,
       panel_(place.panel),
       sizes_(context.sizes),
       text_px_(context.sizes.text) {
-  const Rectangle& whole = place.area;
+  const Rect& whole = place.area;
   const auto width_px = [&](const Formula& title) { return title.width_em() * text_px_; };
   const auto title = std::ranges::find_if(
       titles, [&](const Formula& wording) { return width_px(wording) <= whole.width; });
@@ -71,7 +66,7 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place,
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
   // Lines along its border are wider than the area.
-  item_ = {nth(first_id_, 0), whole_pixels(whole, kAround * text_px_), nullptr};
+  item_ = {nth(first_id_, 0), whole.grown(kAround * text_px_).whole_pixels(), nullptr};
 }
 
 void Diagram::check_range(const std::vector<DrawItem>& items) const {
@@ -124,7 +119,7 @@ TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double
   }
   const double em = diagram.text_px();
   const double inside_left = plot_.x;
-  const double inside_right = plot_.x + plot_.width;
+  const double inside_right = plot_.right();
   plot_.height -= kBelow * em;
   plot_.x += indent_em * em;
   plot_.width -= indent_em * em;
@@ -168,7 +163,7 @@ void TimeAxis::place_figures(const Font& font, double em) {
 void TimeAxis::add_base(Diagram& diagram) const {
   const double em = diagram.text_px();
   const Color& color = diagram.palette().muted;
-  diagram.line({{plot_.x, bottom()}, {plot_.x + plot_.width, bottom()}}, color);
+  diagram.line({{plot_.x, bottom()}, {plot_.right(), bottom()}}, color);
   for (const Figure& figure : figures_) {
     diagram.line({{figure.x, bottom()}, {figure.x, bottom() + kTimeTick_em * em}}, color);
     if (figure.text.empty()) continue;

@@ -16,7 +16,7 @@ namespace piblocks {
 
 /// Where a diagram is, the first of its ids, and its name for messages.
 struct PanelPlace {
-  Rectangle area;
+  Rect area;
   ItemId first_id = ItemId::panels;
   Panel panel = Panel::velocity;
 };
@@ -67,9 +67,6 @@ struct Circle {
   std::vector<Point> arc(double from, double to) const;
 };
 
-/// From the upper left one, clockwise.
-std::vector<Point> corners_of(const Rectangle& box);
-
 /// A panel's title, its items that stay, and forms for those that move.
 class Diagram {
  public:
@@ -80,7 +77,7 @@ class Diagram {
           const std::vector<Formula>& titles);
 
   /// What is left below the title.
-  const Rectangle& inside() const noexcept { return inside_; }
+  const Rect& inside() const noexcept { return inside_; }
   double text_px() const noexcept { return text_px_; }
   /// Width of the title.
   double title_px() const noexcept { return title_px_; }
@@ -100,9 +97,9 @@ class Diagram {
              const std::optional<Color>& line = std::nullopt) {
     items_.emplace_back(shape_item(next_id(), std::move(outline), fill, line));
   }
-  void box(const Rectangle& box, const std::optional<Color>& fill,
+  void box(const Rect& box, const std::optional<Color>& fill,
            const std::optional<Color>& line = std::nullopt) {
-    shape(corners_of(box), fill, line);
+    shape(box.corners(), fill, line);
   }
   /// @param anchor  the part of the text's width that is left of `at`: 0, 0.5 or 1
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
@@ -162,7 +159,7 @@ class Diagram {
   Sizes sizes_;
   double text_px_;
   double title_px_ = 0;
-  Rectangle inside_;
+  Rect inside_;
   std::vector<DrawItem> items_;
   PlateItem item_;
 };
@@ -176,14 +173,14 @@ class TimeAxis {
 
   const Span& span() const noexcept { return span_; }
   /// The diagram without the figures below it.
-  const Rectangle& plot() const noexcept { return plot_; }
-  double right() const noexcept { return plot_.x + plot_.width; }
-  double bottom() const noexcept { return plot_.y + plot_.height; }
+  const Rect& plot() const noexcept { return plot_; }
+  double right() const noexcept { return plot_.right(); }
+  double bottom() const noexcept { return plot_.bottom(); }
   double x_of(double time) const noexcept { return plot_.x + (time - from_) * scale_; }
   /// Whether a time is on the axis. Stills may show instants that are not.
   bool shows(double time) const noexcept {
     const double x = x_of(time);
-    return x >= plot_.x - 1 && x <= plot_.x + plot_.width + 1;
+    return x >= plot_.x - 1 && x <= plot_.right() + 1;
   }
 
   /// Axis, ticks and figures.
@@ -204,7 +201,7 @@ class TimeAxis {
   Span span_;
   double from_;
   double length_;
-  Rectangle plot_;
+  Rect plot_;
   double scale_ = 1;             ///< pixels per unit of time
   std::vector<Figure> figures_;  ///< one at each tick; its text is empty if it has no room
 };

@@ -102,7 +102,7 @@ class PositionPanel {
 
   /// @param slope  of the line of contact; 0 if any will do
   void place_wedge(double slope) {
-    const Rectangle& inside = diagram_.inside();
+    const Rect& inside = diagram_.inside();
     const double room = inside.height - kNamesBelow_em * diagram_.text_px();
     width_ = inside.width;
     height_ = slope > 0 ? slope * width_ : std::min(width_, room);
@@ -158,9 +158,9 @@ class PositionPanel {
       diagram_.text(text, {right, y}, 1, palette.red.label);
       return;
     }
-    const Rectangle& inside = diagram_.inside();
+    const Rect& inside = diagram_.inside();
     const double left = corner_.x + width_ + beside;
-    if (left + width > inside.x + inside.width) return;
+    if (left + width > inside.right()) return;
     diagram_.text(text, {left, corner_.y - height_ + kFirstRow_em * em}, 0, palette.red.label);
   }
 

@@ -10,16 +10,16 @@
 namespace piblocks {
 namespace {
 
-using Vector2 = std::array<double, 2>;
-
-double dot(const Vector2& a, const Vector2& b) { return a[0] * b[0] + a[1] * b[1]; }
+Point from_to(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  return {b[0] - a[0], b[1] - a[1]};
+}
 
 /// The squared distance of two discs in free flight: |d|^2 + 2 d.w s + |w|^2 s^2, s since they
 /// touched.
 struct Parabola {
   double touch = 0;  ///< time
-  Vector2 apart{};   ///< d: from one centre to the other, then
-  Vector2 speed{};   ///< w: its rate
+  Point apart;       ///< d: from one centre to the other, then
+  Point speed;       ///< w: its rate
 
   double at(double time) const {
     const double s = time - touch;
@@ -45,13 +45,10 @@ Meeting first_meeting(const Log& log, const Span& span) {
     if (c.second >= bodies) continue;
     Meeting meeting{c.first, c.second, {c.time.hi, {}, {}}};
     auto& [touch, apart, speed] = meeting.before;
-    for (const std::size_t axis : {0U, 1U}) {
-      apart.at(axis) = c.second_after.position.at(axis) - c.first_after.position.at(axis);
-      speed.at(axis) = c.second_after.velocity.at(axis) - c.first_after.velocity.at(axis);
-    }
+    apart = from_to(c.first_after.position, c.second_after.position);
+    speed = from_to(c.first_after.velocity, c.second_after.velocity);
     // It has reversed the speed along the line between the centres.
-    const double reversed = 2 * dot(speed, apart) / dot(apart, apart);
-    for (const std::size_t axis : {0U, 1U}) speed.at(axis) -= reversed * apart.at(axis);
+    speed = speed - 2 * dot(speed, apart) / dot(apart, apart) * apart;
     return meeting;
   }
   throw UsageError(
@@ -98,9 +95,7 @@ class SeparationPanel {
   }
 
   double square_of(const std::vector<BodyMotion>& bodies) const {
-    const auto& a = bodies[meeting_.first].position;
-    const auto& b = bodies[meeting_.second].position;
-    const Vector2 apart{b[0] - a[0], b[1] - a[1]};
+    const Point apart = from_to(bodies[meeting_.first].position, bodies[meeting_.second].position);
     return dot(apart, apart);
   }
 
@@ -167,9 +162,8 @@ class SeparationPanel {
       diagram_.shape(std::move(outline), color);
       const double side = anchor > 0.5 ? -0.5 * em : 0.5 * em;
       const double left = at.x + side - anchor * font.width_em(name) * em;
-      const Rectangle& inside = diagram_.inside();
-      const bool has_room =
-          left >= inside.x && left + font.width_em(name) * em <= inside.x + inside.width;
+      const Rect& inside = diagram_.inside();
+      const bool has_room = left >= inside.x && left + font.width_em(name) * em <= inside.right();
       if (has_room) diagram_.text(name, {at.x + side, at.y + 1.1 * em}, anchor, color);
     };
     touch(meeting_.before.touch, "touch", palette.accent, 1);

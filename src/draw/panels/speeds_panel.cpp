@@ -116,7 +116,7 @@ class SpeedsPanel {
       const double right = std::round(plot_.x + double(bin + 1) * width) - 1;
       const double top = std::round(y_of(density));
       items.emplace_back(RectangleItem{diagram_.moving(bin),
-                                       {left, top, right - left, plot_.y + plot_.height - top},
+                                       {left, top, right - left, plot_.bottom() - top},
                                        diagram_.palette().shade,
                                        std::nullopt});
     }
@@ -143,7 +143,7 @@ class SpeedsPanel {
 
   void add_axis(const DrawingContext& context) {
     const double em = diagram_.text_px();
-    const double bottom = plot_.y + plot_.height;
+    const double bottom = plot_.bottom();
     const Color& muted = diagram_.palette().muted;
     const Ticks ticks = ticks_of(0, fastest_, kBetweenTicks_em * em * fastest_ / plot_.width);
     for (const double value : ticks.values) {
@@ -151,7 +151,7 @@ class SpeedsPanel {
       const std::string text = tick_text(value, ticks.step);
       const double half = context.font.width_em(text) * em / 2;
       diagram_.line({{x, bottom}, {x, bottom + kTick_em * em}}, muted);
-      if (x + half > plot_.x + plot_.width) continue;
+      if (x + half > plot_.right()) continue;
       diagram_.text(text, {std::max(x, plot_.x + half), bottom + kFigure_em * em}, 0.5, muted);
     }
   }
@@ -168,10 +168,10 @@ class SpeedsPanel {
       points.push_back({plot_.x + plot_.width * i / kCurvePoints, y_of(densities[std::size_t(i)])});
     }
     // The bars stand on the axis, and end behind its line.
-    const double bottom = plot_.y + plot_.height;
+    const double bottom = plot_.bottom();
     std::vector<DrawItem> lines;
-    lines.emplace_back(diagram_.moving_line(
-        kCurve, {{plot_.x, bottom}, {plot_.x + plot_.width, bottom}}, diagram_.palette().muted));
+    lines.emplace_back(diagram_.moving_line(kCurve, {{plot_.x, bottom}, {plot_.right(), bottom}},
+                                            diagram_.palette().muted));
     lines.emplace_back(diagram_.moving_line(kCurve + 1, std::move(points),
                                             diagram_.palette().accent, diagram_.data_width()));
     above_ = diagram_.plate(kCurve, std::move(lines));
@@ -182,7 +182,7 @@ class SpeedsPanel {
   BodySystem system_;
   Diagram diagram_;
   Maxwell maxwell_;
-  Rectangle plot_;
+  Rect plot_;
   double fastest_;
   int bins_;
   double greatest_ = 1;  ///< density of the curve's maximum

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "core/rounded.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
 
@@ -56,7 +55,7 @@ class TakenColumns {
  public:
   enum Layer : std::size_t { blue, red, names };
 
-  explicit TakenColumns(const Rectangle& plot) : plot_(plot) {
+  explicit TakenColumns(const Rect& plot) : plot_(plot) {
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::ceil(plot.width)));
     for (auto& layer : layers_) layer.resize(columns);
   }
@@ -66,10 +65,10 @@ class TakenColumns {
     for (std::size_t i = 1; i < points.size(); ++i) add(layer, points[i - 1], points[i]);
   }
 
-  bool is_free(const Rectangle& box) const {
-    for (std::size_t i = column_of(box.x); i <= column_of(box.x + box.width); ++i) {
+  bool is_free(const Rect& box) const {
+    for (std::size_t i = column_of(box.x); i <= column_of(box.right()); ++i) {
       for (const auto& layer : layers_) {
-        if (layer[i].high >= box.y && layer[i].low <= box.y + box.height) return false;
+        if (layer[i].high >= box.y && layer[i].low <= box.bottom()) return false;
       }
     }
     return true;
@@ -117,7 +116,7 @@ class TakenColumns {
     }
   }
 
-  Rectangle plot_;
+  Rect plot_;
   std::array<std::vector<Column>, 3> layers_;
 };
 
@@ -192,7 +191,7 @@ class TimePanel {
     const auto [on_blue, on_red] = taken.farthest_apart();
     add_name({palette.red.name, on_red, palette.red.label}, taken);
     add_name({palette.blue.name, on_blue, palette.blue.label}, taken);
-    const Rectangle& plot = axis_.plot();
+    const Rect& plot = axis_.plot();
     add_name({"distance from the wall", {plot.x + plot.width / 2, plot.y}, palette.muted}, taken);
   }
 
@@ -206,27 +205,27 @@ class TimePanel {
   void add_name(const Name& name, TakenColumns& taken) {
     const double em = diagram_.text_px();
     const double around = kAroundName_em * em;
-    const Rectangle& plot = axis_.plot();
+    const Rect& plot = axis_.plot();
     const double width = diagram_.setter().text(name.text).width_em() * em + 2 * around;
     const double height = (kNameTop_em + kNameBottom_em) * em + 2 * around;
-    std::optional<Rectangle> best;
+    std::optional<Rect> best;
     double least = std::numeric_limits<double>::infinity();
     const double step = std::max(2.0, kNameStep_em * em);
-    for (double x = plot.x; x + width <= plot.x + plot.width; x += step) {
+    for (double x = plot.x; x + width <= plot.right(); x += step) {
       for (double y = plot.y; y + height <= axis_.bottom(); y += step) {
-        const Rectangle box{x, y, width, height};
-        const double far =
-            rounded::hypot(x + width / 2 - name.near.x, y + height / 2 - name.near.y);
+        const Rect box{x, y, width, height};
+        const double far = length(box.centre() - name.near);
         if (far >= least || !taken.is_free(box)) continue;
         least = far;
         best = box;
       }
     }
     if (!best) return;
-    const auto& [x, y, box_width, box_height] = *best;
-    diagram_.text(name.text, {x + around, y + around + kNameTop_em * em}, 0, name.color);
-    taken.add(TakenColumns::names, {{x, y}, {x + box_width, y}});
-    taken.add(TakenColumns::names, {{x, y + box_height}, {x + box_width, y + box_height}});
+    diagram_.text(name.text, {best->x + around, best->y + around + kNameTop_em * em}, 0,
+                  name.color);
+    const std::vector<Point> corners = best->corners();
+    taken.add(TakenColumns::names, {corners[0], corners[1]});
+    taken.add(TakenColumns::names, {corners[3], corners[2]});
   }
 
   Diagram diagram_;

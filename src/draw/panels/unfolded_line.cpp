@@ -44,8 +44,8 @@ StraightLine::StraightLine(const TwoBlocks& system) : wedge_(system) {
   const double sign = turning < 0 ? 1 : -1;
   velocity_ = sign * speed;
   // The plane is turned so that this direction points to the right.
-  const Point right{velocity.x / velocity_, velocity.y / velocity_};
-  if (turning != 0) height_ = std::abs(start.x * right.y - start.y * right.x);
+  const Point right = velocity / velocity_;
+  if (turning != 0) height_ = std::abs(cross(start, right));
   first_ray_ = -rounded::atan2(right.y, right.x);
 }
 
@@ -61,7 +61,7 @@ Rational StraightLine::time_at(double position) const {
   return turn_ + Rational(position) / Rational(velocity_);
 }
 
-UnfoldedMap::UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rectangle& area,
+UnfoldedMap::UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rect& area,
                          double margin_px)
     : line_(log.blocks()),
       area_(area),

@@ -62,17 +62,17 @@ class UnfoldedMap {
  public:
   /// @param margin_px  left and right of what is shown
   /// @throws Error as CollisionLog::time_after(), where collisions are that near to each other.
-  UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rectangle& area, double margin_px);
+  UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rect& area, double margin_px);
 
   const StraightLine& line() const noexcept { return line_; }
-  const Rectangle& area() const noexcept { return area_; }
-  double base_y() const noexcept { return area_.y + area_.height; }
+  const Rect& area() const noexcept { return area_; }
+  double base_y() const noexcept { return area_.bottom(); }
   double line_y() const noexcept { return base_y() - level_px_; }
   Point corner() const noexcept { return {corner_x_, base_y()}; }
   double x_at(double position) const noexcept { return corner_x_ + scale_ * position; }
   double x_at(const Rational& time) const { return x_at(line_.at(time)); }
   double left() const noexcept { return area_.x; }
-  double right() const noexcept { return area_.x + area_.width; }
+  double right() const noexcept { return area_.right(); }
 
   /// Direction in the picture, y up, of a direction in the plane, and back.
   Point picture_of(const Point& plane) const { return {plane.x * across_, plane.y * level_px_}; }
@@ -96,7 +96,7 @@ class UnfoldedMap {
   double reach_px(double least_apart_px) const;
 
   StraightLine line_;
-  Rectangle area_;
+  Rect area_;
   double margin_px_;
   double level_px_;  ///< height of the line above the base
   Span span_;

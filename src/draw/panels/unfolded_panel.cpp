@@ -37,7 +37,7 @@ constexpr std::size_t kDots = 4097;
 constexpr std::size_t kPresent = 8192;
 
 bool has_two_rows(const Diagram& diagram) {
-  const Rectangle& inside = diagram.inside();
+  const Rect& inside = diagram.inside();
   const double em = diagram.text_px();
   return inside.height >= kTwoRowsHeight * em && inside.width < kTwoRowsWidth * em;
 }
@@ -100,8 +100,8 @@ class UnfoldedPanel {
 
  private:
   /// Without the notes below it.
-  Rectangle plot() const {
-    Rectangle area = diagram_.inside();
+  Rect plot() const {
+    Rect area = diagram_.inside();
     area.height -= (kNoteBaseline + 0.3 + (rows_ - 1) * kNoteStep) * diagram_.text_px();
     return area;
   }
@@ -238,16 +238,12 @@ class UnfoldedPanel {
 
   /// A wedge that turns over its mirror, seen from above: halfway it is seen edge on.
   Point turned(const Point& mirror, const Point& after, double opened) const {
-    const auto unit = [](const Point& point) {
-      const double length = rounded::hypot(point.x, point.y);
-      return Point{point.x / length, point.y / length};
-    };
+    const auto unit = [](const Point& point) { return point / rounded::hypot(point.x, point.y); };
     const Point axis = unit(map_.plane_of(mirror));
     const Point open = unit(map_.plane_of(after));
-    const double along = axis.x * open.x + axis.y * open.y;
+    const Point along = dot(axis, open) * axis;
     const double across = -rounded::cos(std::numbers::pi * opened);
-    const Point plane{along * axis.x + across * (open.x - along * axis.x),
-                      along * axis.y + across * (open.y - along * axis.y)};
+    const Point plane = along + across * (open - along);
     const Point turned = map_.picture_of({plane.x, std::max(0.0, plane.y)});
     return std::isfinite(turned.x) && std::isfinite(turned.y) ? turned : after;
   }
@@ -259,7 +255,7 @@ class UnfoldedPanel {
     const double from = std::round(256 * from_x_) / 256;
     const double to = std::round(256 * std::clamp(x, map_.left(), map_.right())) / 256;
     const double width = 1.2 * diagram_.sizes().data_line;
-    const Rectangle bounds{std::min(from, to), level() - width / 2, std::abs(to - from), width};
+    const Rect bounds{std::min(from, to), level() - width / 2, std::abs(to - from), width};
     items.emplace_back(
         RectangleItem{diagram_.moving(kLine), bounds, diagram_.palette().accent, std::nullopt});
   }

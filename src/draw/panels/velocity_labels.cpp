@@ -69,28 +69,20 @@ double widest_em(const std::vector<Formula>& lines) {
   return widest;
 }
 
-bool meet(const Rectangle& a, const Rectangle& b) {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
-}
-
 /// The room that is left around the circle.
 class FreeRoom {
  public:
   explicit FreeRoom(const VelocityPlace& place) : place_(place) {}
 
-  bool is_free(const Rectangle& box) const {
+  bool is_free(const Rect& box) const {
     const auto& [inside, circle, em] = place_;
-    if (box.x < inside.x || box.x + box.width > inside.x + inside.width || box.y < inside.y ||
-        box.y + box.height > inside.y + inside.height) {
-      return false;
-    }
-    const double x = std::clamp(circle.centre.x, box.x, box.x + box.width);
-    const double y = std::clamp(circle.centre.y, box.y, box.y + box.height);
+    if (!inside.holds(box)) return false;
+    const Point nearest{std::clamp(circle.centre.x, box.x, box.right()),
+                        std::clamp(circle.centre.y, box.y, box.bottom())};
     const double slack = kAround_em * em;
-    const double distance = rounded::hypot(x - circle.centre.x, y - circle.centre.y);
-    if (distance < circle.radius + slack) return false;
-    const Rectangle wide{box.x - slack, box.y, box.width + 2 * slack, box.height};
-    return std::ranges::none_of(taken_, [&](const Rectangle& other) { return meet(wide, other); });
+    if (length(nearest - circle.centre) < circle.radius + slack) return false;
+    const Rect wide = box.grown(slack, 0);
+    return std::ranges::none_of(taken_, [&](const Rect& other) { return wide.meets(other); });
   }
   bool is_free(const Formula& formula, const Point& at) const {
     return is_free(box_of(formula, at));
@@ -98,13 +90,13 @@ class FreeRoom {
   void take(const Formula& formula, const Point& at) { taken_.push_back(box_of(formula, at)); }
 
  private:
-  Rectangle box_of(const Formula& formula, const Point& at) const {
+  Rect box_of(const Formula& formula, const Point& at) const {
     const double em = place_.em;
     return {at.x, at.y - kLabelTop * em, formula.width_em() * em, (kLabelTop + kLabelBottom) * em};
   }
 
   VelocityPlace place_;
-  std::vector<Rectangle> taken_;
+  std::vector<Rect> taken_;
 };
 
 /// Takes room for one label after the other.
@@ -133,11 +125,11 @@ class VelocityLabeller {
   }
 
  private:
-  double bottom() const { return inside_.y + inside_.height - kLabelBottom * em_; }
+  double bottom() const { return inside_.bottom() - kLabelBottom * em_; }
   double beside_circle() const { return circle_.centre.x + circle_.radius + kToLabel * em_; }
   /// Where a text begins that ends at the right border.
   double at_right(const Formula& formula) const {
-    return inside_.x + inside_.width - formula.width_em() * em_;
+    return inside_.right() - formula.width_em() * em_;
   }
 
   void add_axis_names() {
@@ -276,7 +268,7 @@ class VelocityLabeller {
 
   const Palette& palette_;
   FormulaSetter set_;
-  Rectangle inside_;
+  Rect inside_;
   Circle circle_;
   double em_;
   const VelocityPoints& points_;
@@ -287,7 +279,7 @@ class VelocityLabeller {
 }  // namespace
 
 VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set) {
-  const Rectangle& inside = diagram.inside();
+  const Rect& inside = diagram.inside();
   const double em = diagram.text_px();
   const double side = kBesideCircle * em;
   const double high = inside.height - (kAboveCircle + kBelowCircle) * em;

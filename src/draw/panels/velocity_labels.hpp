@@ -26,7 +26,7 @@ struct VelocityLabels {
 
 /// The circle and its room, in pixels.
 struct VelocityPlace {
-  Rectangle inside;
+  Rect inside;
   Circle circle;
   double em = 0;
 };

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/rounded.hpp"
 #include "draw/number_text.hpp"
 #include "draw/stage/stage.hpp"
 
@@ -52,19 +51,15 @@ struct Arrow {
 /// Nothing where the arrow would be no longer than its head.
 void add_arrow(const Arrow& arrow, std::vector<DrawItem>& items) {
   const auto& [id, tail, tip, color, line_px, head, half_head] = arrow;
-  const double length = rounded::hypot(tip.x - tail.x, tip.y - tail.y);
-  if (length <= head) return;
-  const Point along{(tip.x - tail.x) / length, (tip.y - tail.y) / length};
-  const Point neck{tip.x - head * along.x, tip.y - head * along.y};
-  const double half = along.x < 0 ? -half_head : half_head;
+  const double length_px = length(tip - tail);
+  if (length_px <= head) return;
+  const Point along = (tip - tail) / length_px;
+  const Point neck = tip - head * along;
+  const Point aside = (along.x < 0 ? half_head : -half_head) * turned_right(along);
   items.emplace_back(
       PathItem{id, std::vector<Point>{tail, neck}, false, std::nullopt, Stroke{color, line_px}});
-  items.emplace_back(
-      PathItem{nth(id, 1),
-               std::vector<Point>{tip,
-                                  {neck.x + half * along.y, neck.y - half * along.x},
-                                  {neck.x - half * along.y, neck.y + half * along.x}},
-               true, color, std::nullopt});
+  items.emplace_back(PathItem{nth(id, 1), std::vector<Point>{tip, neck + aside, neck - aside}, true,
+                              color, std::nullopt});
 }
 
 struct Figure {
@@ -283,17 +278,12 @@ class DiscArrows {
     for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
       const auto& [position, velocity] = shown.state.bodies[i];
       const Point way{velocity[0] * px_per_speed_, -velocity[1] * px_per_speed_};
-      const double length = rounded::hypot(way.x, way.y);
-      if (!(length > 0 && length < HUGE_VAL)) continue;
+      const double length_px = length(way);
+      if (!(length_px > 0 && length_px < HUGE_VAL)) continue;
       const Point centre = layout_.at(position);
-      const double from = layout_.width_px(i) / 2 / length;
-      add_arrow({nth(ItemId::velocities, kIds * i),
-                 {centre.x + from * way.x, centre.y + from * way.y},
-                 {centre.x + (from + 1) * way.x, centre.y + (from + 1) * way.y},
-                 color_,
-                 line_px_,
-                 head_px_,
-                 head_px_ / 2},
+      const double from = layout_.width_px(i) / 2 / length_px;
+      add_arrow({nth(ItemId::velocities, kIds * i), centre + from * way, centre + (from + 1) * way,
+                 color_, line_px_, head_px_, head_px_ / 2},
                 items);
     }
   }

@@ -31,7 +31,7 @@ constexpr double kNegligible_em = 1e-6;
 constexpr double kDash = 4;
 
 /// Size of type. A banner is low and wide, and its text may take more of its height.
-double text_size(const Rectangle& area) {
+double text_size(const Rect& area) {
   const double aspect = area.width / area.height;
   return article_style::kCounter * article_style::short_measure(area) *
          std::clamp(aspect / kUsualAspect, 1.0, kMostBannerText);
@@ -126,8 +126,8 @@ struct ExtraRoom {
 };
 
 /// Label and view form one group, centred in the area.
-Layout article_layout(const DrawingContext& context, const CountLine& count_line,
-                      const Rectangle& area, const ExtraRoom& extra) {
+Layout article_layout(const DrawingContext& context, const CountLine& count_line, const Rect& area,
+                      const ExtraRoom& extra) {
   const View& view = context.scene.view;
   const double margin = article_style::kMargin * article_style::short_measure(area);
   Layout layout;
@@ -165,14 +165,14 @@ Layout article_layout(const DrawingContext& context, const CountLine& count_line
   layout.floor_px = layout.at(0, -half).y;
   layout.wall_bottom_px = layout.at(0, to_double(view.y.low)).y;
   layout.above_px = (to_double(view.y.high) - half) * layout.scale + gap - line.text_px / 2;
-  layout.below_px = area.y + area.height - layout.floor_px;
+  layout.below_px = area.bottom() - layout.floor_px;
   return layout;
 }
 
 }  // namespace
 
 Layout lay_out_article(const DrawingContext& context, const Integer& longest_count,
-                       const Rectangle& area) {
+                       const Rect& area) {
   const Font& font = context.font;
   const double margin = article_style::kMargin * article_style::short_measure(area);
   CountLine line;

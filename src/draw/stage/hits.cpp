@@ -111,7 +111,7 @@ void HitMarks::add_arc(ItemId id, double age_s, const Contact& contact,
   const double radius = (is_ring ? kRing : 1) * reach_px_ * (1 - (1 - kFirstRadius) * left * left);
   std::vector<Point> arc;
   for (const Point& direction : directions_of(contact)) {
-    arc.push_back({contact.at.x + radius * direction.x, contact.at.y + radius * direction.y});
+    arc.push_back(contact.at + radius * direction);
   }
   arc.pop_back();
   if (!is_ring) arc.erase(arc.begin());
@@ -125,9 +125,7 @@ HitMarks::Glows HitMarks::glows_of(const Contact& contact) const {
   for (int disc = 1; disc <= kGlowDiscs; ++disc) {
     const double radius_px = glow_px_ * disc / kGlowDiscs;
     std::vector<Point> outline = {{0, 0}};
-    for (const Point& direction : directions) {
-      outline.push_back({radius_px * direction.x, radius_px * direction.y});
-    }
+    for (const Point& direction : directions) outline.push_back(radius_px * direction);
     outlines.emplace_back(std::move(outline));
   }
   Glows glows;

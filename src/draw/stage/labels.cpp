@@ -122,8 +122,8 @@ class LabelRoom {
         pad_(kBelowLabel * context.sizes.short_side) {}
 
   void add(Label label, const FrameState& shown, std::vector<DrawItem>& items) const {
-    const Rectangle block = layout_.at(label.body, shown);
-    if (block.x + block.width <= 0 || block.x >= layout_.visible_right_px) return;
+    const Rect block = layout_.at(label.body, shown);
+    if (block.right() <= 0 || block.x >= layout_.visible_right_px) return;
     const double half = label.half_px();
     double middle = block.x + block.width / 2;
     const double pad = std::min(pad_, std::max(0.0, block.width / 2 - half - kRounded_px));
@@ -131,7 +131,7 @@ class LabelRoom {
       middle = std::clamp(middle, left_ + half, std::max(left_ + half, right_ - half));
     } else {
       const double least = std::max(left_, block.x + pad) + half;
-      const double most = std::min(right_, block.x + block.width - pad) - half;
+      const double most = std::min(right_, block.right() - pad) - half;
       middle = least <= most ? std::clamp(middle, least, most) : leave(label, block, shown);
     }
     // By whole pixels, its figures keep their distances, and encoders find it again.
@@ -143,16 +143,16 @@ class LabelRoom {
  private:
   /// Moves the label of a block of which too little is seen beside the block, or above it if
   /// another block is in the way. @returns the middle of the label
-  double leave(Label& label, const Rectangle& block, const FrameState& shown) const {
+  double leave(Label& label, const Rect& block, const FrameState& shown) const {
     const double half = label.half_px();
     label.text.color = label.beside;
-    const bool goes_right = block.x + block.width > right_;
+    const bool goes_right = block.right() > right_;
     const double middle = goes_right ? std::min(block.x - pad_, right_) - half
-                                     : std::max(block.x + block.width + pad_, left_) + half;
+                                     : std::max(block.right() + pad_, left_) + half;
     bool is_free = true;
     for (std::size_t i = 0; i < layout_.shapes.size() && is_free; ++i) {
-      const Rectangle other = layout_.at(i, shown);
-      is_free = i == label.body || other.x + other.width <= middle - half - pad_ ||
+      const Rect other = layout_.at(i, shown);
+      is_free = i == label.body || other.right() <= middle - half - pad_ ||
                 other.x >= middle + half + pad_;
     }
     if (is_free) return middle;
@@ -271,7 +271,8 @@ Drawable labels_of_plane(const DrawingContext& context) {
       if (!label.is_inside && has_arrows && velocity[1] > 0) {
         text.origin.y = Font::kCapHeight_em * text.size_px - text.origin.y;
       }
-      text.origin = {std::round(centre.x + text.origin.x), std::round(centre.y + text.origin.y)};
+      text.origin = centre + text.origin;
+      text.origin = {std::round(text.origin.x), std::round(text.origin.y)};
       items.emplace_back(std::move(text));
     }
   };

@@ -43,9 +43,7 @@ void each_piece(Exposures exposures, std::size_t body, const Visit& visit) {
 double way_of(Exposures exposures, std::size_t body, const Layout& map) {
   double way = 0;
   each_piece(exposures, body, [&](double, double, const BodyPiece& piece) {
-    const double x = piece.to[0] - piece.from[0];
-    const double y = piece.to[1] - piece.from[1];
-    way += std::sqrt(x * x + y * y);
+    way += length({piece.to[0] - piece.from[0], piece.to[1] - piece.from[1]});
   });
   return way * map.scale;
 }
@@ -122,10 +120,9 @@ std::vector<Point> places_of(Exposures exposures, std::size_t body, const Layout
     const Point to = map.at(piece.to);
     for (; places.size() < moments.size() && moments[places.size()] < end;) {
       const double part = std::max(0.0, (moments[places.size()] - begin) / (end - begin));
-      places.push_back(
-          {from.x + part * (to.x - from.x) - corner.x, from.y + part * (to.y - from.y) - corner.y});
+      places.push_back(on_way(from, to, part) - corner);
     }
-    last = {to.x - corner.x, to.y - corner.y};
+    last = to - corner;
   });
   places.resize(moments.size(), last);  // shares add up to 1 but for their rounding
   return places;
@@ -142,7 +139,7 @@ void add_still(const PlacedBody& placed, std::vector<DrawItem>& items) {
 /// From the upper left corner of a block to its centre below; a disc is at its centre.
 Point corner_of(const Still& body) {
   if (std::holds_alternative<DiscItem>(body)) return {};
-  const Rectangle& bounds = std::get<ExposedBlock>(body).bounds;
+  const Rect& bounds = std::get<ExposedBlock>(body).bounds;
   return {bounds.width / 2, bounds.height};
 }
 

@@ -105,7 +105,7 @@ std::optional<RectangleItem> cover_of(const DrawingContext& context) {
 
 }  // namespace
 
-ExposedBlock block_at(const Rectangle& bounds, const BlockColors& colors, double line_px) {
+ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, double line_px) {
   ExposedBlock block{bounds, colors.fill, Stroke{colors.edge, line_px}, {}, {}};
   const double height = std::min(2 * line_px, kBarSpacing * bounds.height / 2);
   for (int bar = 1; bar <= colors.bars; ++bar) {
@@ -117,8 +117,8 @@ ExposedBlock block_at(const Rectangle& bounds, const BlockColors& colors, double
   return block;
 }
 
-PlateItem plate_of(ItemId id, const Rectangle& bounds, std::vector<DrawItem> items) {
-  return {id, whole_pixels(bounds), std::make_shared<const Plate>(Plate{std::move(items)})};
+PlateItem plate_of(ItemId id, const Rect& bounds, std::vector<DrawItem> items) {
+  return {id, bounds.whole_pixels(), std::make_shared<const Plate>(Plate{std::move(items)})};
 }
 
 void add_blocks(const FrameState& shown, const Layout& layout,

@@ -83,9 +83,9 @@ std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,
 std::vector<DrawItem> stage_walls(const DrawingContext& context);
 
 /// A block in the colours and with the bars of the theme.
-ExposedBlock block_at(const Rectangle& bounds, const BlockColors& colors, double line_px);
+ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, double line_px);
 
 /// Items that never change. @param bounds  around them; they become whole pixels
-PlateItem plate_of(ItemId id, const Rectangle& bounds, std::vector<DrawItem> items);
+PlateItem plate_of(ItemId id, const Rect& bounds, std::vector<DrawItem> items);
 
 }  // namespace piblocks

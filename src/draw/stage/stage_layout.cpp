@@ -22,7 +22,7 @@ constexpr std::size_t kMostDrawn = 50'000;
 
 /// What is seen of the axis, and where.
 struct Axis {
-  Axis(const BodySystem& system, const View& view, const Rectangle& area) : range(view.x) {
+  Axis(const BodySystem& system, const View& view, const Rect& area) : range(view.x) {
     const Sizes sizes(view);
     const LineWalls all = line_walls(system);
     const LineWalls seen = seen_walls(system, view);
@@ -33,7 +33,7 @@ struct Axis {
     const double beside_wall = sizes.margin + style::kWallWidth * sizes.short_side;
     const double opposite = seen.left || seen.right ? sizes.margin : 0;
     left_px = area.x + (seen.left ? beside_wall : opposite);
-    const double right = area.x + area.width - (seen.right ? beside_wall : opposite);
+    const double right = area.right() - (seen.right ? beside_wall : opposite);
     scale = (right - left_px) / to_double(range.high - range.low);
     if (scale < kLeastRounded_px) return;
     scale = 2 * std::floor(scale / 2);
@@ -100,13 +100,13 @@ void fit_heights(double room_px, const View& view, Layout& layout) {
   }
 }
 
-Layout lay_out_line(const DrawingContext& context, const Rectangle& area, bool is_floor_at_bottom) {
+Layout lay_out_line(const DrawingContext& context, const Rect& area, bool is_floor_at_bottom) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
   const Axis axis(context.scene.system, view, area);
   Layout layout;
   const bool is_whole = area.width >= view.width_px;
-  layout.content_right_px = area.x + area.width - sizes.margin;
+  layout.content_right_px = area.right() - sizes.margin;
   layout.visible_right_px = is_whole ? view.width_px : std::floor(layout.content_right_px);
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
   layout.scale = axis.scale;
@@ -124,10 +124,10 @@ Layout lay_out_line(const DrawingContext& context, const Rectangle& area, bool i
   } while (room_above_px(context, layout) > above);
   // What is left over is above and below in equal parts.
   const double rest = is_floor_at_bottom ? 0 : (room - (layout.floor_px - layout.top_px())) / 2;
-  layout.floor_px = std::floor(area.y + area.height - below - rest);
+  layout.floor_px = std::floor(area.bottom() - below - rest);
   layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;
-  layout.below_px = area.y + area.height - layout.floor_px;
+  layout.below_px = area.bottom() - layout.floor_px;
   layout.wall_bottom_px = layout.floor_px + sizes.wall_line;
   return layout;
 }
@@ -142,7 +142,7 @@ void check_plane(const View& view, double scale) {
       "move the bodies towards 0");
 }
 
-Layout lay_out_plane(const DrawingContext& context, const Rectangle& area) {
+Layout lay_out_plane(const DrawingContext& context, const Rect& area) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
   const BodySystem& system = context.scene.system;
@@ -219,8 +219,7 @@ double reach_px(const DrawingContext& context) {
   return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
 }
 
-Layout lay_out_stage(const DrawingContext& context, const Rectangle& area,
-                     bool is_floor_at_bottom) {
+Layout lay_out_stage(const DrawingContext& context, const Rect& area, bool is_floor_at_bottom) {
   check_number(context);
   if (context.is_plane()) return lay_out_plane(context, area);
   return lay_out_line(context, area, is_floor_at_bottom);

@@ -14,16 +14,13 @@ constexpr double kHatchStep = 0.02;
 /// From places along a wall's face and behind it to pixels.
 struct WallMap {
   WallMap(const Point& start, const Point& end)
-      : from(start),
-        length(std::sqrt((end.x - start.x) * (end.x - start.x) +
-                         (end.y - start.y) * (end.y - start.y))),
-        along{(end.x - start.x) / length, (end.y - start.y) / length} {}
+      : from(start), length(piblocks::length(end - start)), along((end - start) / length) {}
 
   Point operator()(double on, double behind) const {
-    return {from.x + on * along.x - behind * along.y, from.y + on * along.y + behind * along.x};
+    return from + on * along + behind * turned_right(along);
   }
   /// Around a part of the wall.
-  Rectangle bounds(double first, double last, double front, double back) const {
+  Rect bounds(double first, double last, double front, double back) const {
     const Points corners(
         {(*this)(first, front), (*this)(first, back), (*this)(last, front), (*this)(last, back)});
     return corners.bounds();
@@ -54,27 +51,23 @@ struct WallPart {
   }
 };
 
-std::array<double, 2> to_doubles(const ExactVector& vector) {
-  return {to_double(vector[0]), to_double(vector[1])};
-}
+Point to_doubles(const ExactVector& vector) { return {to_double(vector[0]), to_double(vector[1])}; }
 
 /// What the view shows of a straight wall, as far as the walls beside it.
 WallPart part_of(const Wall& wall, const std::vector<Wall>& walls, const View& view) {
   // Along the wall, with the bodies on the left.
-  const std::array<double, 2> way = {to_double(wall.normal[1]), -to_double(wall.normal[0])};
-  const std::array<double, 2> point = to_doubles(wall.point);
+  const Point way{to_double(wall.normal[1]), -to_double(wall.normal[0])};
+  const Point point = to_doubles(wall.point);
   WallPart part;
   for (const Wall& other : walls) {
     if (&other == &wall) continue;
-    const std::array<double, 2> normal = to_doubles(other.normal);
-    const std::array<double, 2> there = to_doubles(other.point);
-    part.cut(way[0] * normal[0] + way[1] * normal[1],
-             (point[0] - there[0]) * normal[0] + (point[1] - there[1]) * normal[1]);
+    const Point normal = to_doubles(other.normal);
+    part.cut(dot(way, normal), dot(point - to_doubles(other.point), normal));
   }
-  part.cut(way[0], point[0] - to_double(view.x.low));
-  part.cut(-way[0], to_double(view.x.high) - point[0]);
-  part.cut(way[1], point[1] - to_double(view.y.low));
-  part.cut(-way[1], to_double(view.y.high) - point[1]);
+  part.cut(way.x, point.x - to_double(view.x.low));
+  part.cut(-way.x, to_double(view.x.high) - point.x);
+  part.cut(way.y, point.y - to_double(view.y.low));
+  part.cut(-way.y, to_double(view.y.high) - point.y);
   return part;
 }
 
