@@ -54,6 +54,10 @@ struct PixelRect {
   int width_px = 0;
   int height_px = 0;
 
+  constexpr int right_px() const noexcept { return x_px + width_px; }
+  constexpr int bottom_px() const noexcept { return y_px + height_px; }
+  constexpr bool is_empty() const noexcept { return width_px <= 0 || height_px <= 0; }
+
   friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 

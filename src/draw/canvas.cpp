@@ -150,8 +150,8 @@ struct Canvas::Pixels {
   template <typename Visit>
   void for_each_tile(const PixelRect& rect, const Visit& visit) const {
     const std::size_t columns = columns_of_tiles();
-    for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
-      for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
+    for (int y = rect.y_px / kTile_px; y * kTile_px < rect.bottom_px(); ++y) {
+      for (int x = rect.x_px / kTile_px; x * kTile_px < rect.right_px(); ++x) {
         visit(static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x));
       }
     }

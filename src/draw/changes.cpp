@@ -214,7 +214,7 @@ class Comparison {
   void add(const Rect& extent) {
     if (rects_.size() == 1 && rects_.front() == frame_) return;
     const PixelRect rect = pixels_of(extent.grown(kRounding_px), frame_);
-    if (rect.width_px <= 0 || rect.height_px <= 0) return;
+    if (rect.is_empty()) return;
     if (rect == frame_) rects_.clear();
     rects_.push_back(rect);
   }

@@ -173,18 +173,18 @@ PixelRect pixels_of(const Rect& extent, const PixelRect& area) {
 }
 
 PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area) {
-  int left = area.x_px + area.width_px;
+  int left = area.right_px();
   int right = area.x_px;
-  int top = area.y_px + area.height_px;
+  int top = area.bottom_px();
   int bottom = area.y_px;
   for (const ExposedBlock* block : {&item.behind, &item.front}) {
     const PixelRect pixels = pixels_of(extent_of(*block), area);
     // Where one block moves, the others are painted with it.
     top = std::min(top, pixels.y_px);
-    bottom = std::max(bottom, pixels.y_px + pixels.height_px);
+    bottom = std::max(bottom, pixels.bottom_px());
     if (block->is_still() || pixels.width_px <= 0) continue;
     left = std::min(left, pixels.x_px);
-    right = std::max(right, pixels.x_px + pixels.width_px);
+    right = std::max(right, pixels.right_px());
   }
   return {left, top, std::max(0, right - left), bottom - top};
 }

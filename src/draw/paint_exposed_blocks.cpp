@@ -75,7 +75,7 @@ class ExposedColumn {
 
  private:
   static bool is_in(const PixelRect& pixels, int x) {
-    return pixels.x_px <= x && x < pixels.x_px + pixels.width_px;
+    return pixels.x_px <= x && x < pixels.right_px();
   }
 
   /// @returns whether that changes anything
@@ -206,9 +206,7 @@ void Painter::paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const Pi
   const bool has_pixels = has_pixels_of_picture(cr);
   const PixelRect moving = has_pixels ? moving_area(item, area) : PixelRect{};
   std::optional<ExposedArea> exposed;
-  if (moving.width_px > 0 && moving.height_px > 0) {
-    exposed.emplace(moving, background_, SurfacePixels(cr, area));
-  }
+  if (!moving.is_empty()) exposed.emplace(moving, background_, SurfacePixels(cr, area));
   for (const ExposedBlock* block : {&item.behind, &item.front}) {
     if (block->is_still() || !has_pixels) paint_still(cr, item.id, *block);
   }

@@ -195,7 +195,7 @@ class MomentSums {
     for (int sample = 0; sample < 256; ++sample) {
       lights_[static_cast<std::size_t>(sample)] = whole_light(sample);
     }
-    for (int y = area.y_px; y < area.y_px + area.height_px; ++y) {
+    for (int y = area.y_px; y < area.bottom_px(); ++y) {
       const auto row = [&](int of) { return std::span(pixels.at(area.x_px, of), stride_ - 1); };
       repeats_.push_back(y > area.y_px && std::ranges::equal(row(y), row(y - 1)) &&
                          std::ranges::all_of(movers, [&](const Mover& m) { return m.repeats(y); }));
@@ -211,11 +211,11 @@ class MomentSums {
 
   template <typename Shape>
   void add(const Shape& shape, const Point& place) {
-    const Run rows = cut(shape.rows(place), {area_.y_px, area_.y_px + area_.height_px});
+    const Run rows = cut(shape.rows(place), {area_.y_px, area_.bottom_px()});
     for (int y = rows.begin; y < rows.end; ++y) {
       if (repeats_[static_cast<std::size_t>(y - area_.y_px)]) continue;
       shape.visit_row(
-          place, y, {area_.x_px, area_.x_px + area_.width_px},
+          place, y, {area_.x_px, area_.right_px()},
           [&](const Run& run, const Rgb& samples) { add_solid(y, run, samples); },
           [&](int x, const auto& over) { add_edge(x, y, over); });
     }
@@ -223,7 +223,7 @@ class MomentSums {
 
   /// Makes each pixel the mean of all moments.
   void finish() {
-    for (int y = area_.y_px; y < area_.y_px + area_.height_px; ++y) {
+    for (int y = area_.y_px; y < area_.bottom_px(); ++y) {
       if (repeats_[static_cast<std::size_t>(y - area_.y_px)]) {
         std::copy_n(pixels_.at(area_.x_px, y - 1), area_.width_px, pixels_.at(area_.x_px, y));
       } else {
@@ -245,7 +245,7 @@ class MomentSums {
   void finish_row(int y) {
     LightSum solid{};
     std::int64_t covered = 0;
-    for (int x = area_.x_px; x < area_.x_px + area_.width_px; ++x) {
+    for (int x = area_.x_px; x < area_.right_px(); ++x) {
       const PixelSum& pixel = at(x, y);
       covered += pixel.solid_weight;
       for (std::size_t i = 0; i < 3; ++i) solid[i] += pixel.solid[i];
@@ -325,7 +325,7 @@ std::vector<Mover> movers_in(const MovingShapesItem& item, const PixelRect& area
   std::vector<Mover> movers;
   for (const MovingShape& moving : item.shapes) {
     const PixelRect pixels = pixels_of(extent_of(moving), area);
-    if (pixels.width_px <= 0 || pixels.height_px <= 0) continue;
+    if (pixels.is_empty()) continue;
     if (const auto* disc = std::get_if<DiscItem>(&moving.shape)) {
       movers.push_back({MovingDisc(*disc), moving.places.view()});
     } else {
@@ -345,8 +345,8 @@ void Painter::paint_exposed(cairo_t& cr, const MovingShapesItem& item, const Pix
   const std::vector<Mover> movers = movers_in(item, moving);
   if (movers.empty()) return;
   const SurfacePixels pixels(cr, area);
-  for (int y = moving.y_px; y < moving.y_px + moving.height_px; y += kBand_px) {
-    const int height = std::min(kBand_px, moving.y_px + moving.height_px - y);
+  for (int y = moving.y_px; y < moving.bottom_px(); y += kBand_px) {
+    const int height = std::min(kBand_px, moving.bottom_px() - y);
     MomentSums sums({moving.x_px, y, moving.width_px, height}, light(), pixels, movers);
     for (std::size_t moment = 0; moment < item.shares.size(); ++moment) {
       check_stop(stop_);

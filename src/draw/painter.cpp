@@ -246,8 +246,8 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   const int y = static_cast<int>(item.bounds.y);
   const int left = std::max(0, area.x_px - x);
   const int top = std::max(0, area.y_px - y);
-  const int width = std::min(list.width_px, area.x_px + area.width_px - x) - left;
-  const int height = std::min(list.height_px, area.y_px + area.height_px - y) - top;
+  const int width = std::min(list.width_px, area.right_px() - x) - left;
+  const int height = std::min(list.height_px, area.bottom_px() - y) - top;
   if (width <= 0 || height <= 0) return;
   // As for a canvas, Cairo must not know that the memory is clear.
   std::vector<std::uint32_t> words(std::size_t(width) * std::size_t(height));

@@ -20,9 +20,9 @@ void Region::clear() {
 }
 
 void Region::add(const PixelRect& rect) {
-  const int end_x = rect.x_px + rect.width_px;
-  const int end_y = rect.y_px + rect.height_px;
-  if (rect.width_px <= 0 || rect.height_px <= 0) return;
+  const int end_x = rect.right_px();
+  const int end_y = rect.bottom_px();
+  if (rect.is_empty()) return;
   const int begin_column = rect.x_px / kCell_px;
   const int end_column = (end_x - 1) / kCell_px + 1;
   for (int y = rect.y_px / kCell_px; y * kCell_px < end_y; ++y) {
@@ -71,7 +71,7 @@ void Region::add_row(int y_cells) {
     } else {
       rects_.push_back(rect);
     }
-    if (rect.y_px + rect.height_px == (y_cells + 1) * kCell_px) here_.push_back(index);
+    if (rect.bottom_px() == (y_cells + 1) * kCell_px) here_.push_back(index);
   }
 }
 

@@ -79,7 +79,7 @@ std::vector<Voice> voices_of(const Film& film) {
       if (i + 1 < film.segments().size()) voice.fall = ramps_of(film.segments()[i + 1], rate).fall;
       const PixelRect cell = segment.cell(k);
       voice.left = double(cell.x_px) / film.view().width_px;
-      voice.right = double(cell.x_px + cell.width_px) / film.view().width_px;
+      voice.right = double(cell.right_px()) / film.view().width_px;
     }
   }
   return voices;

@@ -73,8 +73,8 @@ std::optional<Flashing> FlashMeter::take(const ImageView& frame,
 }
 
 void FlashMeter::touch(const PixelRect& rect) {
-  for (int y = rect.y_px / cell_px_; y * cell_px_ < rect.y_px + rect.height_px; ++y) {
-    for (int x = rect.x_px / cell_px_; x * cell_px_ < rect.x_px + rect.width_px; ++x) {
+  for (int y = rect.y_px / cell_px_; y * cell_px_ < rect.bottom_px(); ++y) {
+    for (int x = rect.x_px / cell_px_; x * cell_px_ < rect.right_px(); ++x) {
       touched_[cell_at(x, y)] = true;
     }
   }

@@ -26,8 +26,8 @@ PixelRect bounding_box(std::span<const PixelRect> rects) {
   if (rects.empty()) return {};
   PixelRect all = rects.front();
   for (const PixelRect& rect : rects) {
-    const int right = std::max(all.x_px + all.width_px, rect.x_px + rect.width_px);
-    const int bottom = std::max(all.y_px + all.height_px, rect.y_px + rect.height_px);
+    const int right = std::max(all.right_px(), rect.right_px());
+    const int bottom = std::max(all.bottom_px(), rect.bottom_px());
     all.x_px = std::min(all.x_px, rect.x_px);
     all.y_px = std::min(all.y_px, rect.y_px);
     all.width_px = right - all.x_px;
@@ -51,7 +51,7 @@ void convert(const ImageView& picture, Patch& patch) {
   patch.rgba.resize(std::size_t{4} * static_cast<std::size_t>(rect.width_px) *
                     static_cast<std::size_t>(rect.height_px));
   std::uint8_t* to = patch.rgba.data();
-  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+  for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
     if (picture.has_alpha) {
       pack_row(picture, rect, y, to);
     } else {

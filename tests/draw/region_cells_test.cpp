@@ -11,7 +11,7 @@ namespace piblocks {
 namespace {
 
 bool is_in(const PixelRect& r, int x, int y) {
-  return x >= r.x_px && x < r.x_px + r.width_px && y >= r.y_px && y < r.y_px + r.height_px;
+  return x >= r.x_px && x < r.right_px() && y >= r.y_px && y < r.bottom_px();
 }
 
 /// What a Region says of a picture, pixel by pixel, against the definition of its cells.

@@ -34,7 +34,7 @@ Background background_for(const DrawList& list) {
 }
 
 bool contains(const PixelRect& r, int x, int y) {
-  return x >= r.x_px && x < r.x_px + r.width_px && y >= r.y_px && y < r.y_px + r.height_px;
+  return x >= r.x_px && x < r.right_px() && y >= r.y_px && y < r.bottom_px();
 }
 
 std::vector<std::uint32_t> pixels_of(const Canvas& canvas) {

@@ -34,8 +34,8 @@ View view_of_size(int width_px, int height_px) {
 }
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
-  return a.x_px < b.x_px + b.width_px && b.x_px < a.x_px + a.width_px &&
-         a.y_px < b.y_px + b.height_px && b.y_px < a.y_px + a.height_px;
+  return a.x_px < b.right_px() && b.x_px < a.right_px() && a.y_px < b.bottom_px() &&
+         b.y_px < a.bottom_px();
 }
 
 TEST(SplitScreen, CellsAreEqualApartAndInsideTheFrame) {

@@ -98,8 +98,8 @@ TEST(Compare, RefusesWhatMakesNoSense) {
 /// Pixels that are off in a window, one by one.
 std::int64_t off_in(const Image& a, const Image& b, const PixelRect& window, int max_delta) {
   std::int64_t count = 0;
-  for (int y = window.y_px; y < window.y_px + window.height_px; ++y) {
-    for (int x = window.x_px; x < window.x_px + window.width_px; ++x) {
+  for (int y = window.y_px; y < window.bottom_px(); ++y) {
+    for (int x = window.x_px; x < window.right_px(); ++x) {
       const std::size_t i = std::size_t(y) * std::size_t(a.width_px) + std::size_t(x);
       bool is_off = false;
       for (const int shift : {0, 8, 16, 24}) {

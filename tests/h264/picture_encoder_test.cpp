@@ -25,7 +25,7 @@ const Config kConfig = {.width_px = 320, .height_px = 176, .rate_numerator = 10}
 void fill(Picture& picture, MacroblockSet& changed, const PixelRect& rect, std::uint8_t value) {
   for (int plane = 0; plane < 3; ++plane) {
     const int step = plane == 0 ? 1 : 2;
-    for (int y = rect.y_px / step; y < (rect.y_px + rect.height_px) / step; ++y) {
+    for (int y = rect.y_px / step; y < (rect.bottom_px()) / step; ++y) {
       std::uint8_t* const row = picture.plane(plane) + y * picture.stride_bytes(plane);
       std::fill_n(row + rect.x_px / step, rect.width_px / step, value);
     }

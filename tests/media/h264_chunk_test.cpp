@@ -167,8 +167,8 @@ class ChangingFrame {
   void fill(const PixelRect& rect) {
     const bool is_flat = pick(0, 1) > 0;
     int colour = pick(0, 0xffffff);
-    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-      for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+    for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
+      for (int x = rect.x_px; x < rect.right_px(); ++x) {
         if (!is_flat) colour = pick(0, 0xffffff);
         pixels_.at(x, y) = 0xff000000U | static_cast<std::uint32_t>(colour);
       }

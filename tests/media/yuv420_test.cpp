@@ -147,8 +147,8 @@ TEST(Yuv420, ARectangleIsConvertedAsInTheWholeFrame) {
     convert_to_yuv420(pixels.view(), rect, part.view());
     for (int y = 0; y < pixels.height_px; ++y) {
       for (int x = 0; x < pixels.width_px; ++x) {
-        const bool inside = x >= rect.x_px && x < rect.x_px + rect.width_px && y >= rect.y_px &&
-                            y < rect.y_px + rect.height_px;
+        const bool inside =
+            x >= rect.x_px && x < rect.right_px() && y >= rect.y_px && y < rect.bottom_px();
         const std::size_t luma = whole.luma_index(x, y);
         const std::size_t chroma = whole.chroma_index(x, y);
         ASSERT_EQ(part.y[luma], inside ? whole.y[luma] : kUntouched) << x << ' ' << y;

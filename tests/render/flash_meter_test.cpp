@@ -24,8 +24,8 @@ class Screen {
   Screen() : image_{1024, 768, std::vector<std::uint32_t>(1024 * 768, kBlack)} {}
 
   void fill(const PixelRect& rect, std::uint32_t word) {
-    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-      for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+    for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
+      for (int x = rect.x_px; x < rect.right_px(); ++x) {
         image_.words[static_cast<std::size_t>(y * 1024 + x)] = word;
       }
     }

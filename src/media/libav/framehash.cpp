@@ -52,7 +52,7 @@ class FramehashEncoder final : public PacketPerFrameEncoder {
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
     for (const PixelRect& rect : rects) {
       const std::size_t left = std::size_t(rect.x_px) * pixel_bytes_;
-      for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+      for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
         pack_row(frame, rect, y, samples_.data() + std::size_t(y) * row_bytes_ + left);
       }
     }

@@ -99,9 +99,9 @@ class GifEncoder final : public PacketPerFrameEncoder {
   bool choose_colors(const PixelRect& rect) {
     bool has_others = false;
     colors_.clear();
-    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+    for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
       const std::uint32_t* const pixels = picture_.row(y);
-      for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+      for (int x = rect.x_px; x < rect.right_px(); ++x) {
         if (is_left_out(x, y)) {
           has_others = true;
         } else {
@@ -127,7 +127,7 @@ class GifEncoder final : public PacketPerFrameEncoder {
                                false, map.get()),
               "write a frame");
     row_.resize(std::size_t(rect.width_px));
-    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+    for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
       const std::uint32_t* const pixels = picture_.row(y);
       for (int i = 0; i < rect.width_px; ++i) {
         const int x = rect.x_px + i;

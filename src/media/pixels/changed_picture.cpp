@@ -15,7 +15,7 @@ ChangedPicture::ChangedPicture(int width_px, int height_px)
 
 void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rects) {
   for (const PixelRect& rect : rects) {
-    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) take_row(frame, rect, y);
+    for (int y = rect.y_px; y < rect.bottom_px(); ++y) take_row(frame, rect, y);
   }
 }
 

@@ -134,8 +134,8 @@ PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image) {
   // A chroma sample depends on two rows and on three columns: its own and both beside it.
   const int left = rect.x_px & ~1;
   const int top = rect.y_px & ~1;
-  const int right = std::min((rect.x_px + rect.width_px + 2) & ~1, image.width_px);
-  const int bottom = (rect.y_px + rect.height_px + 1) & ~1;
+  const int right = std::min((rect.right_px() + 2) & ~1, image.width_px);
+  const int bottom = (rect.bottom_px() + 1) & ~1;
   return {.x_px = left, .y_px = top, .width_px = right - left, .height_px = bottom - top};
 }
 
@@ -143,11 +143,11 @@ void convert_to_yuv420(const ImageView& image, const PixelRect& rect,
                        const YuvView<std::uint8_t>& picture) {
   assert((image.width_px | image.height_px) % 2 == 0);
   assert((rect.x_px | rect.y_px | rect.width_px | rect.height_px) % 2 == 0);
-  assert(rect.x_px >= 0 && rect.x_px + rect.width_px <= image.width_px);
-  assert(rect.y_px >= 0 && rect.y_px + rect.height_px <= image.height_px);
+  assert(rect.x_px >= 0 && rect.right_px() <= image.width_px);
+  assert(rect.y_px >= 0 && rect.bottom_px() <= image.height_px);
 
-  const int right = rect.x_px + rect.width_px;
-  const int bottom = rect.y_px + rect.height_px;
+  const int right = rect.right_px();
+  const int bottom = rect.bottom_px();
   for (int y = rect.y_px; y < bottom; y += 2) {
     for (int x = rect.x_px; x < right; x += kStrip_px) {
       convert_strip(image, {x, y, std::min(kStrip_px, right - x), 2}, picture);

@@ -84,7 +84,7 @@ void convert_luma_420(const Reader& reader, const PixelRect& rect, int y,
                       const YuvView<std::uint8_t>& picture) {
   std::uint32_t last = 0;
   std::uint8_t value = 16;
-  for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+  for (int x = rect.x_px; x < rect.right_px(); ++x) {
     const std::uint32_t word = reader.word(x, y);
     if (word != last) {
       Sums pixel;
@@ -102,7 +102,7 @@ void convert_chroma_420(const Reader& reader, const PixelRect& rect, int y,
   Sums last;
   std::uint8_t cb = 128;
   std::uint8_t cr = 128;
-  for (int x = rect.x_px; x < rect.x_px + rect.width_px; x += 2) {
+  for (int x = rect.x_px; x < rect.right_px(); x += 2) {
     Sums sums;
     for (const int line : {y, y + 1}) {
       reader.add(x > 0 ? x - 1 : x, line, 1, sums);
@@ -126,8 +126,8 @@ void convert_to_yuva444p10(const ImageView& image, const PixelRect& rect,
   const Reader reader(image);
   std::uint32_t last = 0;
   Sample444 sample = sample_444({});
-  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+  for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
+    for (int x = rect.x_px; x < rect.right_px(); ++x) {
       const std::uint32_t word = reader.word(x, y);
       if (word != last) {
         Sums pixel;
@@ -148,7 +148,7 @@ void convert_to_yuva420(const ImageView& image, const PixelRect& rect,
   assert((image.width_px | image.height_px) % 2 == 0);
   assert((rect.x_px | rect.y_px | rect.width_px | rect.height_px) % 2 == 0);
   const Reader reader(image);
-  for (int y = rect.y_px; y < rect.y_px + rect.height_px; y += 2) {
+  for (int y = rect.y_px; y < rect.bottom_px(); y += 2) {
     convert_luma_420(reader, rect, y, picture);
     convert_luma_420(reader, rect, y + 1, picture);
     convert_chroma_420(reader, rect, y, picture);

@@ -78,7 +78,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
     Bytes above(bytes);
     Bytes current(bytes);
     if (rect.y_px > 0) pack_row(image, rect, rect.y_px - 1, above.data());
-    const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
+    const int end = std::min(rect.bottom_px() + 1, height_px_);
     const Bytes zeros(bytes);
     Bytes difference(bytes);
     for (int y = rect.y_px; y < end; ++y) {
