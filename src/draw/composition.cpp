@@ -46,32 +46,37 @@ const TwoBlocks* two_blocks_of(const Log& log) {
   return log.pair() != nullptr ? &log.pair()->blocks() : nullptr;
 }
 
+FrameNeeds needs_of(const std::vector<Drawable>& drawables) {
+  FrameNeeds needs;
+  for (const Drawable& drawable : drawables) needs |= drawable.needs;
+  return needs;
+}
+
 /// Places all that a scene shows, and makes its drawables in the order of their ids.
 class Composer {
  public:
-  Composer(const Scene& scene, const Log& log, FrameNeeds& needs)
+  Composer(const Scene& scene, const Log& log)
       : scene_(scene),
         is_article_(scene.view.theme == Theme::article && scene.system.dimensions == 1),
         colors_(colors_of(scene, two_blocks_of(log))),
         palette_(log.pair() != nullptr ? palette_of(scene.view.theme, log.pair()->blocks(), colors_)
                                        : palette_of(scene.view.theme)),
         sizes_(scene.view),
-        context_{.scene = scene,
-                 .log = log,
-                 .palette = palette_,
-                 .colors = colors_,
-                 .fonts = fonts_,
-                 .font = fonts_.of(text_face_of(scene.view.theme)),
-                 .layout = layout_,
-                 .sizes = sizes_,
-                 .needs = needs},
-        pi_(pi_count(context_)),
-        read_outs_(context_),
-        plan_(plan_frame(context_, counter_room_beside_read_outs(), read_outs_.height())) {}
+        looks_{.scene = scene,
+               .log = log,
+               .palette = palette_,
+               .colors = colors_,
+               .fonts = fonts_,
+               .font = fonts_.of(text_face_of(scene.view.theme)),
+               .sizes = sizes_},
+        pi_(pi_count(looks_)),
+        read_outs_(looks_),
+        plan_(plan_frame(looks_, counter_room_beside_read_outs(), read_outs_.height())),
+        layout_(lay_out()),
+        context_{looks_, layout_},
+        loupe_(LoupeInset::make(context_, plan_)) {}
 
   std::vector<Drawable> run(std::shared_ptr<const Image> logo) {
-    layout_ = lay_out();
-    loupe_ = LoupeInset::make(context_, plan_);
     add_stage();
     add_read_outs();
     add_loupe();
@@ -83,61 +88,55 @@ class Composer {
  private:
   std::optional<CounterRoom> counter_room_beside_read_outs() const {
     if (is_article_) return std::nullopt;
-    CounterRoom room = counter_room(context_, pi_);
+    CounterRoom room = counter_room(looks_, pi_);
     room.slow_motion_px = read_outs_.lone_slow_motion_px();
     return room;
   }
 
   Layout lay_out() const {
-    if (!is_article_) return lay_out_stage(context_, plan_.stage, plan_.is_floor_at_bottom);
-    return lay_out_article(context_, longest_count(scene_, context_.log), plan_.stage);
+    if (!is_article_) return lay_out_stage(looks_, plan_.stage, plan_.is_floor_at_bottom);
+    return lay_out_article(looks_, longest_count(scene_, looks_.log), plan_.stage);
   }
 
   /// Walls, floor and bodies, what is over them, and the count.
   void add_stage() {
-    if (context_.is_plane()) {
-      std::vector<Drawable> inside = overlays();
-      inside.insert(inside.begin(), stage(context_, {}));
-      drawables_.push_back(window(std::move(inside)));
-      drawables_.push_back(counter(context_, plan_.counter, pi_));
-      return;
-    }
-    Drawable behind;
+    add(unchanging(stage_walls(context_)));
     if (loupe_) {
-      behind = [loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
+      add({[loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
         loupe->add_lines(shown, items);
-      };
+      }});
     }
-    if (is_article_) {
-      drawables_.push_back(article_stage(context_, pi_, std::move(behind)));
-    } else {
-      drawables_.push_back(stage(context_, std::move(behind)));
-      drawables_.push_back(counter(context_, plan_.counter, pi_));
+    add(is_article_ ? article_blocks(context_, pi_) : bodies(context_));
+    if (context_.is_plane()) {
+      add_overlays();
+      drawables_ = {window(std::move(drawables_))};
     }
-    std::ranges::move(overlays(), std::back_inserter(drawables_));
-    if (scene_.show.has(Overlay::ruler)) drawables_.push_back(ruler(context_));
+    if (!is_article_) add(counter(context_, plan_.counter, pi_));
+    if (context_.is_plane()) return;
+    add_overlays();
+    if (scene_.show.has(Overlay::ruler)) add(ruler(context_));
   }
 
   /// What is over the bodies.
-  std::vector<Drawable> overlays() const {
+  void add_overlays() {
     const Show& show = scene_.show;
-    std::vector<Drawable> made;
-    if (has_labels(context_)) made.push_back(body_labels(context_));
-    if (show.has(Overlay::velocities)) made.push_back(velocity_arrows(context_));
-    if (show.hits && scene_.view.theme != Theme::article) made.push_back(hit_marks(context_));
-    return made;
+    if (has_labels(context_)) add(body_labels(context_));
+    if (show.has(Overlay::velocities)) add(velocity_arrows(context_));
+    if (show.hits && scene_.view.theme != Theme::article) add(hit_marks(context_));
   }
 
   /// Discs that leave what is shown are cut off at its edge, so that they hide no text.
   Drawable window(std::vector<Drawable> inside) const {
-    return [inside = std::move(inside), bounds = layout_.window,
-            background = background_of(scene_.view)](const FrameState& shown,
-                                                     std::vector<DrawItem>& items) {
-      DrawList list{int(bounds.width), int(bounds.height), background, {}};
-      for (const Drawable& drawable : inside) drawable(shown, list.items);
-      items.emplace_back(
-          GroupItem{ItemId::wall, bounds, std::make_shared<const DrawList>(std::move(list))});
-    };
+    const FrameNeeds needs = needs_of(inside);
+    return {[inside = std::move(inside), bounds = layout_.window,
+             background = background_of(scene_.view)](const FrameState& shown,
+                                                      std::vector<DrawItem>& items) {
+              DrawList list{int(bounds.width), int(bounds.height), background, {}};
+              for (const Drawable& drawable : inside) drawable.add(shown, list.items);
+              items.emplace_back(GroupItem{ItemId::wall, bounds,
+                                           std::make_shared<const DrawList>(std::move(list))});
+            },
+            needs};
   }
 
   void add_read_outs() {
@@ -146,22 +145,22 @@ class Composer {
           [loupe = loupe_](const FrameState& shown) { return loupe->opacity(shown); });
     }
     read_outs_.move(plan_.read_outs_top_px, plan_.counter.slow_motion);
-    drawables_.emplace_back(std::move(read_outs_));
+    add({std::move(read_outs_)});
   }
 
   void add_loupe() {
     if (!loupe_) return;
-    drawables_.emplace_back(
-        [loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
-          (*loupe)(shown, items);
-        });
+    add({[loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
+           (*loupe)(shown, items);
+         },
+         {.gaps = true}});
   }
 
   /// Title, caption and logo.
   void add_lines(std::shared_ptr<const Image> logo) {
     std::vector<DrawItem> lines(plan_.lines.begin(), plan_.lines.end());
     if (logo) lines.emplace_back(place_logo(plan_.logo, std::move(logo)));
-    drawables_.push_back(unchanging(std::move(lines)));
+    add(unchanging(std::move(lines)));
   }
 
   void add_panels() {
@@ -176,7 +175,7 @@ class Composer {
       check_has_blocks(panels[i]);
       const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                    ids_from(static_cast<std::uint32_t>(i))};
-      drawables_.push_back(make_panel(context_, {plan_.panels[i], first_id, panels[i]}));
+      add(make_panel(context_, {plan_.panels[i], first_id, panels[i]}));
     }
   }
 
@@ -191,17 +190,20 @@ class Composer {
                     exact_text(panel)));
   }
 
+  void add(Drawable drawable) { drawables_.push_back(std::move(drawable)); }
+
   const Scene& scene_;
   bool is_article_;
   Fonts fonts_;
   std::vector<BlockColors> colors_;  ///< of the bodies
   Palette palette_;
   Sizes sizes_;
-  Layout layout_;  ///< made by run(): what else there is decides it
-  DrawingContext context_;
+  LayoutContext looks_;
   std::string pi_;  ///< the count, if it is digits of pi
   ReadOutRows read_outs_;
   FramePlan plan_;
+  Layout layout_;
+  DrawingContext context_;
   std::shared_ptr<const LoupeInset> loupe_;  ///< may be empty
   std::vector<Drawable> drawables_;
 };
@@ -210,12 +212,13 @@ class Composer {
 
 Composition::Composition(const Scene& scene, const Log& log, std::shared_ptr<const Image> logo)
     : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}},
-      drawables_(Composer(scene, log, needs_).run(std::move(logo))) {}
+      drawables_(Composer(scene, log).run(std::move(logo))),
+      needs_(needs_of(drawables_)) {}
 
 DrawList Composition::frame(const FrameState& shown) const {
   for (const BodyMotion& body : shown.state.bodies) check(is_finite(body), shown.time);
   DrawList list = empty_;
-  for (const Drawable& drawable : drawables_) drawable(shown, list.items);
+  for (const Drawable& drawable : drawables_) drawable.add(shown, list.items);
   check(are_finite(list.items), shown.time);
   return list;
 }

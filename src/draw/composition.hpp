@@ -4,6 +4,7 @@
 
 #include <piblocks/scene.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -72,10 +73,22 @@ struct FrameNeeds {
   bool hits = false;     ///< and hits_per_s
   int trail_s = 0;       ///< of video at its usual speed that trails go back; 0 for none
   bool video_s = false;  ///< in stills too, which have to look it up
+
+  FrameNeeds& operator|=(const FrameNeeds& more) {
+    gaps |= more.gaps;
+    hits |= more.hits;
+    trail_s = std::max(trail_s, more.trail_s);
+    video_s |= more.video_s;
+    return *this;
+  }
 };
 
-/// Appends the items of one thing, such as an overlay, in the order of their ids. Thread-safe.
-using Drawable = std::function<void(const FrameState& shown, std::vector<DrawItem>& items)>;
+/// One thing that is shown, such as an overlay.
+struct Drawable {
+  /// Appends its items in the order of their ids. Thread-safe.
+  std::function<void(const FrameState& shown, std::vector<DrawItem>& items)> add;
+  FrameNeeds needs = {};  ///< what it reads of a FrameState beside what is always there
+};
 
 /// The layout and all that does not move, as far as the scene asks for it. The log is read only
 /// while it is made. Const members are thread-safe.
@@ -92,8 +105,8 @@ class Composition {
 
  private:
   DrawList empty_;
-  FrameNeeds needs_;                 ///< set by drawables while they are made
   std::vector<Drawable> drawables_;  ///< in the order of their ids
+  FrameNeeds needs_;                 ///< of all of them
 };
 
 }  // namespace piblocks

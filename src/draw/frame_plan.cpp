@@ -61,7 +61,7 @@ std::vector<std::string> shown_element_names(const Scene& scene) {
 
 /// A title or a caption as it is set; empty if there is nothing to be seen.
 /// @throws UsageError as check_readable()
-std::string readable_line(const DrawingContext& context, const char* key, std::string_view line) {
+std::string readable_line(const LayoutContext& context, const char* key, std::string_view line) {
   std::string text = with_single_blanks(line);
   if (!text.empty()) check_readable(context, key, text);
   return text;
@@ -70,7 +70,7 @@ std::string readable_line(const DrawingContext& context, const char* key, std::s
 /// Places things from the edges of the frame inwards. The stage gets what is left.
 class FramePlanner {
  public:
-  FramePlanner(const DrawingContext& context, const std::optional<CounterRoom>& counter)
+  FramePlanner(const LayoutContext& context, const std::optional<CounterRoom>& counter)
       : context_(context),
         view_(context.scene.view),
         show_(context.scene.show),
@@ -341,7 +341,7 @@ class FramePlanner {
         view_.height_px));
   }
 
-  const DrawingContext& context_;
+  const LayoutContext& context_;
   const View& view_;
   const Show& show_;
   const Sizes& sizes_;
@@ -358,7 +358,7 @@ class FramePlanner {
 
 }  // namespace
 
-FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
+FramePlan plan_frame(const LayoutContext& context, const std::optional<CounterRoom>& counter,
                      double read_outs_height_px) {
   return FramePlanner(context, counter).run(read_outs_height_px);
 }

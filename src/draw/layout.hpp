@@ -78,17 +78,15 @@ struct Layout {
   }
 };
 
-/// What overlays and panels are drawn from. It does not outlive their making.
-struct DrawingContext {
+/// What a layout is made from. It does not outlive the making.
+struct LayoutContext {
   const Scene& scene;
   const Log& log;
   const Palette& palette;
   const std::vector<BlockColors>& colors;  ///< of each body
   const Fonts& fonts;
   const Font& font;  ///< of plain text
-  const Layout& layout;
   const Sizes& sizes;
-  FrameNeeds& needs;  ///< a drawable says here what it reads of a FrameState
 
   /// Of two blocks beside a wall, for what is drawn for them alone.
   const CollisionLog& two_blocks() const { return *pair(); }
@@ -96,6 +94,11 @@ struct DrawingContext {
   const CollisionLog* pair() const { return log.pair(); }
   bool is_plane() const noexcept { return scene.system.dimensions == 2; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
+};
+
+/// What overlays and panels are drawn from.
+struct DrawingContext : LayoutContext {
+  const Layout& layout;
 };
 
 /// Where the counter and the digits of pi are. Both end at the right margin.
@@ -131,25 +134,23 @@ struct CounterRoom {
   double slow_motion_px = 0;  ///< width of its label; 0 if it is among the read-outs
 };
 
-/// @param context  its layout is not read.
 /// @throws UsageError if a line cannot be set or is too long, or something gets too small.
 /// @param counter  nothing where the stage has it
-FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
+FramePlan plan_frame(const LayoutContext& context, const std::optional<CounterRoom>& counter,
                      double read_outs_height_px);
 
 /// How far to the right blocks and what is above them come while the film lasts, in pixels;
 /// infinite where that is not known beforehand.
-double reach_px(const DrawingContext& context);
+double reach_px(const LayoutContext& context);
 
 /// The places of the stage in its area: of blocks on a line, or of discs in a plane.
-/// @param context  its layout is not read.
 /// @throws UsageError if the view is right of the wall, too close to tell positions, or the area
 ///         is too low for the blocks.
 /// @param is_floor_at_bottom  as in FramePlan
-Layout lay_out_stage(const DrawingContext& context, const Rect& area,
+Layout lay_out_stage(const LayoutContext& context, const Rect& area,
                      bool is_floor_at_bottom = false);
 /// The same of the article's picture. @param longest_count  of those that will be shown
-Layout lay_out_article(const DrawingContext& context, const Integer& longest_count,
+Layout lay_out_article(const LayoutContext& context, const Integer& longest_count,
                        const Rect& area);
 
 /// @throws UsageError if positions, which are doubles, would be drawn in wrong places.
@@ -169,9 +170,9 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
 
 /// What is the same in every frame.
 inline Drawable unchanging(std::vector<DrawItem> same) {
-  return [same = std::move(same)](const FrameState& /*shown*/, std::vector<DrawItem>& items) {
+  return {[same = std::move(same)](const FrameState& /*shown*/, std::vector<DrawItem>& items) {
     items.insert(items.end(), same.begin(), same.end());
-  };
+  }};
 }
 
 /// The sum of mass · velocity² of all bodies that move, which never changes.

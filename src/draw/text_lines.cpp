@@ -34,7 +34,7 @@ void throw_too_long(const char* key, const std::string& text, double room_px) {
       text, room_px));
 }
 
-void check_readable(const DrawingContext& context, const char* key, const std::string& text) {
+void check_readable(const LayoutContext& context, const char* key, const std::string& text) {
   context.font.check(text, key);
   if (context.sizes.short_side >= kLeastFrame_px) return;
   const View& view = context.scene.view;

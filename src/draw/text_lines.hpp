@@ -49,6 +49,6 @@ std::vector<std::string> break_lines(const Font& font, const std::string& text,
 
 /// @param key  of the scene
 /// @throws UsageError if a glyph is missing, or the frame is too small for any text.
-void check_readable(const DrawingContext& context, const char* key, const std::string& text);
+void check_readable(const LayoutContext& context, const char* key, const std::string& text);
 
 }  // namespace piblocks

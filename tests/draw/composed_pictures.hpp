@@ -51,8 +51,9 @@ struct Drawing {
         colors(colors_of(scene, &log->blocks())),
         palette(palette_of(scene.view.theme, log->blocks(), colors)),
         sizes(scene.view),
-        context{scene,  *log,  palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)),
-                layout, sizes, needs} {}
+        context{
+            {scene, *log, palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)), sizes},
+            layout} {}
 
   std::unique_ptr<CollisionLog> log;
   std::vector<BlockColors> colors;
@@ -60,7 +61,6 @@ struct Drawing {
   Fonts fonts;
   Layout layout;
   Sizes sizes;
-  FrameNeeds needs;
   DrawingContext context;
 };
 

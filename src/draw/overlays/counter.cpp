@@ -41,7 +41,7 @@ std::size_t length_with(std::size_t digits, std::string_view text) {
 }
 
 /// The digits of pi with those that follow, as far as there is room; empty if there is none.
-std::string pi_line(const DrawingContext& context, std::size_t counted) {
+std::string pi_line(const LayoutContext& context, std::size_t counted) {
   const Sizes& sizes = context.sizes;
   const double room_px = context.scene.view.width_px - 2 * sizes.margin;
   for (std::size_t more = kMoreDigits;; --more) {
@@ -62,7 +62,7 @@ std::optional<Integer> last_shown(const Scene& scene, const Log& log) {
 
 class Counter {
  public:
-  Counter(const DrawingContext& context, const CounterPlace& place, std::string pi_count)
+  Counter(const LayoutContext& context, const CounterPlace& place, std::string pi_count)
       : place_(place),
         sizes_(context.sizes),
         palette_(context.palette),
@@ -148,7 +148,7 @@ class Counter {
 
 }  // namespace
 
-std::string pi_count(const DrawingContext& context) {
+std::string pi_count(const LayoutContext& context) {
   if (context.pair() == nullptr) return {};
   const Scene& scene = context.scene;
   const CollisionLog& log = context.two_blocks();
@@ -195,7 +195,7 @@ Integer longest_count(const Scene& scene, const Log& log) {
   return length(first) > length(last) ? first : last;
 }
 
-CounterRoom counter_room(const DrawingContext& context, const std::string& pi_count) {
+CounterRoom counter_room(const LayoutContext& context, const std::string& pi_count) {
   const Integer longest = longest_count(context.scene, context.log);
   CounterRoom room;
   room.count_em = count_width_em(longest, context.scene.show.base, context.fonts.of(Face::digits));
@@ -208,9 +208,9 @@ CounterRoom counter_room(const DrawingContext& context, const std::string& pi_co
   return room;
 }
 
-Drawable counter(const DrawingContext& context, const CounterPlace& place,
+Drawable counter(const LayoutContext& context, const CounterPlace& place,
                  const std::string& pi_count) {
-  return Counter(context, place, pi_count);
+  return {Counter(context, place, pi_count)};
 }
 
 }  // namespace piblocks

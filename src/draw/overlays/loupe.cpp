@@ -26,7 +26,7 @@ constexpr long kMostPower = 300;
 /// Heights of the blocks in the inset differ by this factor at most.
 constexpr double kMaxInsetHeightRatio = 1.6;
 
-bool shows_wall(const DrawingContext& context) {
+bool shows_wall(const LayoutContext& context) {
   const auto& [low, high] = context.scene.view.x;
   const Rational& face = context.two_blocks().blocks().wall_face;
   return context.two_blocks().blocks().side > 0 && low <= face && face < high;
@@ -39,7 +39,7 @@ std::optional<Loupe> loupe_of(const Scene& scene) {
 
 /// The gap between wall and red when it is about least; infinite if that cannot be told.
 /// @param within  the times of interest; if empty, all
-double least_gap(const DrawingContext& context, const std::optional<Span>& within = {}) {
+double least_gap(const LayoutContext& context, const std::optional<Span>& within = {}) {
   const CollisionLog& log = context.two_blocks();
   const auto is_within = [&](const Rational& time) {
     return !within || (time >= within->from && time <= within->to);
@@ -96,7 +96,7 @@ void check_is_seen(const DrawingContext& context, const Span& window) {
 
 }  // namespace
 
-bool may_show_loupe(const DrawingContext& context) {
+bool may_show_loupe(const LayoutContext& context) {
   const View& view = context.scene.view;
   if (context.pair() == nullptr) return false;
   if (!shows_wall(context) || !loupe_of(context.scene)) return false;
@@ -152,7 +152,6 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
         return static_cast<long>(std::clamp<double>(most, 1, kMostPower));
       }()),
       widths_(context.font, "0123456789,.×·") {
-  context.needs.gaps = true;
   if (loupe.window) {
     window_ = Window{span_of_window(*loupe.window, context.log), to_double(loupe.window->zoom)};
   }

@@ -18,8 +18,8 @@
 
 namespace piblocks {
 
-/// Whether the loupe would be seen if it had room. @param context  its layout is not read
-bool may_show_loupe(const DrawingContext& context);
+/// Whether the loupe would be seen if it had room.
+bool may_show_loupe(const LayoutContext& context);
 
 class LoupeInset {
  public:

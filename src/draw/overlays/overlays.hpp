@@ -24,13 +24,13 @@ struct SlowMotionLabel {
   std::string widest;
   std::function<std::string(const FrameState&)> text;
 };
-SlowMotionLabel slow_motion_label(const DrawingContext& context);
+SlowMotionLabel slow_motion_label(const LayoutContext& context);
 
-/// All read-outs in rows. A Drawable.
+/// All read-outs in rows; a Drawable adds them.
 class ReadOutRows {
  public:
   /// @throws UsageError if one is too long to be read.
-  explicit ReadOutRows(const DrawingContext& context);
+  explicit ReadOutRows(const LayoutContext& context);
 
   double height() const noexcept { return height_; }
   /// Width of the label of slow motion if it stands alone; rows need no room then. Else 0.

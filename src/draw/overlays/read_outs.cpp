@@ -51,7 +51,7 @@ int time_decimals(const Scene& scene, const Log& log) {
       std::clamp<double>(kLeastTimeDecimals + more, kLeastTimeDecimals, kMostTimeDecimals));
 }
 
-ReadOut time_read_out(const DrawingContext& context) {
+ReadOut time_read_out(const LayoutContext& context) {
   const auto text = [decimals = time_decimals(context.scene, context.log)](const Rational& time) {
     return fmt::format("t = {}", fixed_text(time, decimals));
   };
@@ -102,7 +102,7 @@ std::string passing_text(const Rational& slowdown, const Rational& most) {
 
 }  // namespace
 
-SlowMotionLabel slow_motion_label(const DrawingContext& context) {
+SlowMotionLabel slow_motion_label(const LayoutContext& context) {
   std::string widest;
   std::vector<Rational> steady = steady_factors(context.scene.pacing);
   for (const Rational& slowdown : steady) {
@@ -126,7 +126,7 @@ SlowMotionLabel slow_motion_label(const DrawingContext& context) {
 
 namespace {
 
-ReadOut slow_motion_read_out(const DrawingContext& context) {
+ReadOut slow_motion_read_out(const LayoutContext& context) {
   SlowMotionLabel label = slow_motion_label(context);
   return {"slow motion", std::move(label.widest), std::move(label.text), context.palette.accent,
           true};
@@ -154,10 +154,10 @@ struct Scale {
 };
 
 /// Whether there is a word for each body, so that its share of a sum can be shown.
-bool has_names(const DrawingContext& context) { return context.pair() != nullptr; }
+bool has_names(const LayoutContext& context) { return context.pair() != nullptr; }
 
 /// The energy of each body that has a name, and the sum of all. Elastic collisions keep the sum.
-ReadOut energy_read_out(const DrawingContext& context, int digits) {
+ReadOut energy_read_out(const LayoutContext& context, int digits) {
   const BodySystem& system = context.scene.system;
   const Rational exact_sum = twice_energy(system) / 2;
   if (!has_names(context)) {
@@ -194,7 +194,7 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
 /// The momenta of bodies, and their sum. Walls and fixed bodies take some of it.
 class Momenta {
  public:
-  Momenta(const DrawingContext& context, int digits)
+  Momenta(const LayoutContext& context, int digits)
       : system_(context.scene.system),
         // The heaviest body has the most momentum when it has all the energy.
         most_squared_(twice_energy(system_) * heaviest(system_)),
@@ -282,19 +282,19 @@ class Momenta {
   std::array<std::optional<double>, 2> kept_;
 };
 
-ReadOut momentum_read_out(const DrawingContext& context, int digits) {
+ReadOut momentum_read_out(const LayoutContext& context, int digits) {
   Momenta momenta(context, digits);
   std::string widest = momenta.widest();
   return {"momentum", std::move(widest), std::move(momenta), context.palette.text};
 }
 
-double room_for_read_outs(const DrawingContext& context) {
+double room_for_read_outs(const LayoutContext& context) {
   return context.scene.view.width_px - 2 * context.sizes.margin;
 }
 
 /// With as many digits as have room, up to a most.
-ReadOut fitted(const DrawingContext& context,
-               ReadOut (*read_out_of)(const DrawingContext& context, int digits)) {
+ReadOut fitted(const LayoutContext& context,
+               ReadOut (*read_out_of)(const LayoutContext& context, int digits)) {
   for (int digits = has_names(context) ? kMostDigits : kDigitsOfSums;; --digits) {
     ReadOut read_out = read_out_of(context, digits);
     const double width = context.font.width_em(read_out.widest) * context.sizes.text;
@@ -303,7 +303,7 @@ ReadOut fitted(const DrawingContext& context,
 }
 
 /// From which time on the picture may be wrong.
-ReadOut certainty_read_out(const DrawingContext& context, double until) {
+ReadOut certainty_read_out(const LayoutContext& context, double until) {
   const std::string text = fmt::format("not certain from t = {:.4g} on", until);
   return {"certainty", text,
           [=](const FrameState& shown) {
@@ -312,7 +312,7 @@ ReadOut certainty_read_out(const DrawingContext& context, double until) {
           context.palette.accent};
 }
 
-std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
+std::vector<ReadOut> read_outs_of(const LayoutContext& context) {
   const Show& show = context.scene.show;
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
@@ -330,7 +330,7 @@ std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
 
 }  // namespace
 
-ReadOutRows::ReadOutRows(const DrawingContext& context)
+ReadOutRows::ReadOutRows(const LayoutContext& context)
     : text_px_(context.sizes.text), face_(context.font.face()) {
   std::vector<ReadOut> read_outs = read_outs_of(context);
   if (read_outs.empty()) return;

@@ -339,7 +339,7 @@ class ConservationPanel {
 }  // namespace
 
 Drawable conservation_panel(const DrawingContext& context, const PanelPlace& place) {
-  return ConservationPanel(context, place);
+  return {ConservationPanel(context, place)};
 }
 
 }  // namespace piblocks

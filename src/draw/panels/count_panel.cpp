@@ -265,7 +265,7 @@ class CountPanel {
 }  // namespace
 
 Drawable count_panel(const DrawingContext& context, const PanelPlace& place) {
-  return CountPanel(context, place);
+  return {CountPanel(context, place)};
 }
 
 }  // namespace piblocks

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <memory>
 #include <numbers>
 
 #include "draw/number_text.hpp"
@@ -59,7 +58,6 @@ class PositionPanel {
         most_(path_.greatest_y2() > 0 ? path_.greatest_y2() : 1),
         least_share_(path_.least_y2() > 0 ? path_.least_y2() / most_ : kLeastShare),
         zoom_(least_share_) {
-    context.needs.gaps = true;
     zoom_.make_texts(context.setter());
     const GapWedge wedge(context.two_blocks().blocks());
     is_true_ = std::min(wedge.theta, std::numbers::pi / 2 - wedge.theta) >= kLeastAngle;
@@ -241,8 +239,7 @@ class PositionPanel {
 }  // namespace
 
 Drawable position_panel(const DrawingContext& context, const PanelPlace& place) {
-  return [panel = std::make_shared<const PositionPanel>(context, place)](
-             const FrameState& shown, std::vector<DrawItem>& items) { (*panel)(shown, items); };
+  return {PositionPanel(context, place), {.gaps = true}};
 }
 
 }  // namespace piblocks

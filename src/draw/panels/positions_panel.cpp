@@ -101,7 +101,7 @@ class PositionsPanel {
 }  // namespace
 
 Drawable positions_panel(const DrawingContext& context, const PanelPlace& place) {
-  return PositionsPanel(context, place);
+  return {PositionsPanel(context, place)};
 }
 
 }  // namespace piblocks

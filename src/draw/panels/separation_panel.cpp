@@ -180,7 +180,7 @@ class SeparationPanel {
 }  // namespace
 
 Drawable separation_panel(const DrawingContext& context, const PanelPlace& place) {
-  return SeparationPanel(context, place);
+  return {SeparationPanel(context, place)};
 }
 
 }  // namespace piblocks

@@ -192,7 +192,7 @@ class SpeedsPanel {
 }  // namespace
 
 Drawable speeds_panel(const DrawingContext& context, const PanelPlace& place) {
-  return SpeedsPanel(context, place);
+  return {SpeedsPanel(context, place)};
 }
 
 }  // namespace piblocks

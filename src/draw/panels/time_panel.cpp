@@ -239,7 +239,7 @@ class TimePanel {
 
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
   if (context.pair() == nullptr) return positions_panel(context, place);
-  return TimePanel(context, place);
+  return {TimePanel(context, place)};
 }
 
 }  // namespace piblocks

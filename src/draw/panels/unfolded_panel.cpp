@@ -65,7 +65,6 @@ class UnfoldedPanel {
     static_items_ = diagram_.plate(kRays, static_items());
     place_dots();
     if (unfolds_) place_rays();
-    if (unfolds_) context.needs.hits = true;
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -280,11 +279,11 @@ class UnfoldedPanel {
 }  // namespace
 
 Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place) {
-  return UnfoldedPanel(context, place);
+  return {UnfoldedPanel(context, place)};
 }
 
 Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place) {
-  return UnfoldedPanel(context, place);
+  return {UnfoldedPanel(context, place), {.hits = true}};
 }
 
 }  // namespace piblocks

@@ -57,7 +57,6 @@ class VelocityPanel {
         points_(context.scene, context.two_blocks()),
         figure_(context, diagram_, points_),
         is_ellipse_first_(is_ellipse_first) {
-    if (is_ellipse_first) context.needs.video_s = true;
     diagram_.finish();
     circle_ = figure_items(1);
     circle_.static_items = plate_of(circle_.static_items);
@@ -209,11 +208,11 @@ class VelocityPanel {
 }  // namespace
 
 Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place) {
-  return VelocityPanel(context, place, circle_titles(context.setter()), false);
+  return {VelocityPanel(context, place, circle_titles(context.setter()), false)};
 }
 
 Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place) {
-  return VelocityPanel(context, place, ellipse_titles(context.setter()), true);
+  return {VelocityPanel(context, place, ellipse_titles(context.setter()), true), {.video_s = true}};
 }
 
 }  // namespace piblocks

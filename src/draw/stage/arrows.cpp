@@ -298,15 +298,15 @@ class DiscArrows {
 
 }  // namespace
 
-double room_above_px(const DrawingContext& context, const Layout& layout) {
+double room_above_px(const LayoutContext& context, const Layout& layout) {
   const bool has_label = !labelled_above(context, layout).empty();
   return (has_label ? label_room_px(context.sizes) : 0) +
          (context.scene.show.has(Overlay::velocities) ? arrow_room_px(context.sizes) : 0);
 }
 
 Drawable velocity_arrows(const DrawingContext& context) {
-  if (context.is_plane()) return DiscArrows(context);
-  return BlockArrows(context);
+  if (context.is_plane()) return {DiscArrows(context)};
+  return {BlockArrows(context)};
 }
 
 }  // namespace piblocks

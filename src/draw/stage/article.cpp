@@ -39,14 +39,12 @@ double text_size(const Rect& area) {
 
 double length(const Range& range) { return to_double(range.high - range.low); }
 
-class ArticleStage {
+class ArticleBlocks {
  public:
-  ArticleStage(const DrawingContext& context, std::string lit_digits, Drawable behind)
+  ArticleBlocks(const DrawingContext& context, std::string lit_digits)
       : layout_(context.layout),
         palette_(context.palette),
         colors_(context.colors),
-        walls_(walls_of(context)),
-        behind_(std::move(behind)),
         lit_digits_(std::move(lit_digits)),
         base_(context.scene.show.base),
         endless_(is_endless(context.log) ? std::optional(context.log.last()) : std::nullopt),
@@ -54,32 +52,11 @@ class ArticleStage {
                 count_characters(base_) + (endless_ ? std::string(kEndlessCount) : "")) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.insert(items.end(), walls_.begin(), walls_.end());
-    if (behind_) behind_(shown, items);
     add_blocks(shown, layout_, colors_, items);
     add_line(shown.state.count, items);
   }
 
  private:
-  /// The article's wall is a body of width 1 whose face is where blue turns back.
-  std::vector<DrawItem> walls_of(const DrawingContext& context) const {
-    const Range& y = context.scene.view.y;
-    const double height = length(y);
-    const LineWalls walls = line_walls(context.scene.system);
-    std::vector<DrawItem> items;
-    const auto add = [&](double left) {
-      const Point corner = layout_.at(left, to_double(y.low) + height);
-      items.emplace_back(
-          RectangleItem{nth(ItemId::wall, items.size()),
-                        {corner.x, corner.y, layout_.scale, height * layout_.scale},
-                        std::nullopt,
-                        Stroke{palette_.wall, layout_.line_px, kDash * layout_.line_px}});
-    };
-    if (walls.left) add(to_double(*walls.left) - 1);
-    if (walls.right) add(to_double(*walls.right));
-    return items;
-  }
-
   /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
   void add_line(const Integer& count, std::vector<DrawItem>& items) const {
     const std::string text =
@@ -111,8 +88,6 @@ class ArticleStage {
   Layout layout_;
   Palette palette_;
   std::vector<BlockColors> colors_;
-  std::vector<DrawItem> walls_;
-  Drawable behind_;
   std::string lit_digits_;
   int base_;                        ///< of counts
   std::optional<Integer> endless_;  ///< the count that stands for infinitely many
@@ -126,7 +101,7 @@ struct ExtraRoom {
 };
 
 /// Label and view form one group, centred in the area.
-Layout article_layout(const DrawingContext& context, const CountLine& count_line, const Rect& area,
+Layout article_layout(const LayoutContext& context, const CountLine& count_line, const Rect& area,
                       const ExtraRoom& extra) {
   const View& view = context.scene.view;
   const double margin = article_style::kMargin * article_style::short_measure(area);
@@ -171,7 +146,7 @@ Layout article_layout(const DrawingContext& context, const CountLine& count_line
 
 }  // namespace
 
-Layout lay_out_article(const DrawingContext& context, const Integer& longest_count,
+Layout lay_out_article(const LayoutContext& context, const Integer& longest_count,
                        const Rect& area) {
   const Font& font = context.font;
   const double margin = article_style::kMargin * article_style::short_measure(area);
@@ -201,8 +176,27 @@ Layout lay_out_article(const DrawingContext& context, const Integer& longest_cou
   return layout;
 }
 
-Drawable article_stage(const DrawingContext& context, std::string lit_digits, Drawable behind) {
-  return ArticleStage(context, std::move(lit_digits), std::move(behind));
+std::vector<DrawItem> article_walls(const DrawingContext& context) {
+  const Layout& layout = context.layout;
+  const Range& y = context.scene.view.y;
+  const double height = length(y);
+  const LineWalls walls = line_walls(context.scene.system);
+  std::vector<DrawItem> items;
+  const auto add = [&](double left) {
+    const Point corner = layout.at(left, to_double(y.low) + height);
+    items.emplace_back(
+        RectangleItem{nth(ItemId::wall, items.size()),
+                      {corner.x, corner.y, layout.scale, height * layout.scale},
+                      std::nullopt,
+                      Stroke{context.palette.wall, layout.line_px, kDash * layout.line_px}});
+  };
+  if (walls.left) add(to_double(*walls.left) - 1);
+  if (walls.right) add(to_double(*walls.right));
+  return items;
+}
+
+Drawable article_blocks(const DrawingContext& context, std::string lit_digits) {
+  return {ArticleBlocks(context, std::move(lit_digits))};
 }
 
 }  // namespace piblocks

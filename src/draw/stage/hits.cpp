@@ -252,16 +252,18 @@ class LineMarks {
 }  // namespace
 
 Drawable hit_marks(const DrawingContext& context) {
-  context.needs.hits = true;
-  if (!context.is_plane()) return LineMarks(context);
-  return [marks = HitMarks(context, HUGE_VAL, HUGE_VAL), layout = context.layout,
-          color = context.palette.text](const FrameState& shown, std::vector<DrawItem>& items) {
+  const FrameNeeds needs{.hits = true};
+  if (!context.is_plane()) return {LineMarks(context), needs};
+  const auto add = [marks = HitMarks(context, HUGE_VAL, HUGE_VAL), layout = context.layout,
+                    color = context.palette.text](const FrameState& shown,
+                                                  std::vector<DrawItem>& items) {
     for (std::size_t n = 0; n < shown.hits.size(); ++n) {
       const Hit& hit = shown.hits[n];
       const Contact ring{layout.at(hit.contact), false, false, color};
       marks.add_arc(nth(ItemId::hits, n), hit.age_s, ring, items);
     }
   };
+  return {add, needs};
 }
 
 }  // namespace piblocks

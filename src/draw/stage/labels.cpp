@@ -31,7 +31,7 @@ struct LabelText {
   bool is_mass = false;
 };
 
-LabelText text_of(const DrawingContext& context, std::size_t body) {
+LabelText text_of(const LayoutContext& context, std::size_t body) {
   const std::string& label = context.scene.styles[body].label;
   if (!label.empty()) return {label, false};
   const auto& mass = context.scene.system.bodies[body].mass;
@@ -42,7 +42,7 @@ LabelText text_of(const DrawingContext& context, std::size_t body) {
 /// What is written on the blocks of a line, and where that fits.
 class BlockTexts {
  public:
-  BlockTexts(const DrawingContext& context, const Layout& layout)
+  BlockTexts(const LayoutContext& context, const Layout& layout)
       : font_(context.font), layout_(layout), size_px_(context.sizes.mass) {
     const std::vector<Body>& bodies = context.scene.system.bodies;
     for (std::size_t i = 0; i < bodies.size(); ++i) texts_.push_back(text_of(context, i));
@@ -64,7 +64,7 @@ class BlockTexts {
            (has_unit ? kHeightWithUnit_em : kHeight_em) * size_px_ <= layout_.height_px(body);
   }
 
-  void find_peaks(const DrawingContext& context) {
+  void find_peaks(const LayoutContext& context) {
     const std::vector<Body>& bodies = context.scene.system.bodies;
     const std::vector<std::size_t> order = from_left_to_right(context.scene.system);
     is_peak_.assign(bodies.size(), true);
@@ -226,10 +226,10 @@ Drawable labels_of_line(const DrawingContext& context) {
   for (std::size_t i = context.layout.shapes.size(); i-- > 0;) {
     if (!texts.text(i).empty()) labels.push_back(label_of(context, texts, i));
   }
-  return [labels = std::move(labels), room = LabelRoom(context)](const FrameState& shown,
-                                                                 std::vector<DrawItem>& items) {
+  return {[labels = std::move(labels), room = LabelRoom(context)](const FrameState& shown,
+                                                                  std::vector<DrawItem>& items) {
     for (const Label& label : labels) room.add(label, shown, items);
-  };
+  }};
 }
 
 /// The label on a disc, its origin as seen from the centre; above it if it has no room there.
@@ -261,8 +261,8 @@ Drawable labels_of_plane(const DrawingContext& context) {
     if (!label.text.empty()) labels.push_back(label_of_disc(context, i, label));
   }
   const bool has_arrows = context.scene.show.has(Overlay::velocities);
-  return [labels = std::move(labels), layout = context.layout, has_arrows](
-             const FrameState& shown, std::vector<DrawItem>& items) {
+  return {[labels = std::move(labels), layout = context.layout, has_arrows](
+              const FrameState& shown, std::vector<DrawItem>& items) {
     for (const Label& label : labels) {
       const auto& [position, velocity] = shown.state.bodies[label.body];
       const Point centre = layout.at(position);
@@ -275,7 +275,7 @@ Drawable labels_of_plane(const DrawingContext& context) {
       text.origin = {std::round(text.origin.x), std::round(text.origin.y)};
       items.emplace_back(std::move(text));
     }
-  };
+  }};
 }
 
 }  // namespace
@@ -285,13 +285,13 @@ double label_room_px(const Sizes& sizes) {
                                                     Font::kCapHeight_em * sizes.mass);
 }
 
-bool has_labels(const DrawingContext& context) {
+bool has_labels(const LayoutContext& context) {
   return context.scene.show.has(Overlay::masses) ||
          std::ranges::any_of(context.scene.styles,
                              [](const BodyStyle& style) { return !style.label.empty(); });
 }
 
-std::vector<std::size_t> labelled_above(const DrawingContext& context, const Layout& layout) {
+std::vector<std::size_t> labelled_above(const LayoutContext& context, const Layout& layout) {
   if (!has_labels(context) || context.is_plane()) return {};
   const BlockTexts texts(context, layout);
   std::vector<std::size_t> found;

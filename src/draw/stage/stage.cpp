@@ -38,9 +38,7 @@ class Discs {
   explicit Discs(const DrawingContext& context)
       : frame_{0, 0, context.scene.view.width_px, context.scene.view.height_px},
         layout_(context.layout),
-        colors_(context.colors) {
-    if (context.scene.show.has(Overlay::trails)) context.needs.trail_s = kTrail_s;
-  }
+        colors_(context.colors) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     add_trails(shown.trails, items);
@@ -141,23 +139,15 @@ void add_blocks(const FrameState& shown, const Layout& layout,
   }
 }
 
-Drawable stage(const DrawingContext& context, Drawable behind) {
-  std::vector<DrawItem> stays = stage_walls(context);
+Drawable bodies(const DrawingContext& context) {
   if (context.is_plane()) {
-    return [stays = std::move(stays), discs = Discs(context)](const FrameState& shown,
-                                                              std::vector<DrawItem>& items) {
-      items.insert(items.end(), stays.begin(), stays.end());
-      discs(shown, items);
-    };
+    return {Discs(context), {.trail_s = context.scene.show.has(Overlay::trails) ? kTrail_s : 0}};
   }
-  return [stays = std::move(stays), cover = cover_of(context), layout = context.layout,
-          colors = context.colors,
-          behind = std::move(behind)](const FrameState& shown, std::vector<DrawItem>& items) {
-    items.insert(items.end(), stays.begin(), stays.end());
-    if (behind) behind(shown, items);
+  return {[cover = cover_of(context), layout = context.layout, colors = context.colors](
+              const FrameState& shown, std::vector<DrawItem>& items) {
     add_blocks(shown, layout, colors, items);
     if (cover) items.emplace_back(*cover);
-  };
+  }};
 }
 
 }  // namespace piblocks

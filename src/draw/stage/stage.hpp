@@ -40,13 +40,12 @@ LineWalls line_walls(const BodySystem& system);
 /// Those of them whose face is in the view.
 LineWalls seen_walls(const BodySystem& system, const View& view);
 
-/// Walls, floor and bodies. @param behind  is drawn before the blocks; may be empty
-Drawable stage(const DrawingContext& context, Drawable behind);
+/// The bodies, and what hides those that leave a row.
+Drawable bodies(const DrawingContext& context);
 
-/// The article's picture of a line: walls, blocks and counter.
+/// The article's picture of a line: blocks and counter.
 /// @param lit_digits  light up when the counter shows them in their places; may be empty
-/// @param behind      is drawn before the blocks; may be empty
-Drawable article_stage(const DrawingContext& context, std::string lit_digits, Drawable behind);
+Drawable article_blocks(const DrawingContext& context, std::string lit_digits);
 
 /// Adds all blocks as they are at the frame's instant, or exposed.
 void add_blocks(const FrameState& shown, const Layout& layout,
@@ -57,9 +56,9 @@ void add_blocks(const FrameState& shown, const Layout& layout,
 /// @throws UsageError if one has no room.
 Drawable body_labels(const DrawingContext& context);
 /// Whether the scene shows any.
-bool has_labels(const DrawingContext& context);
+bool has_labels(const LayoutContext& context);
 /// The blocks whose labels are above them.
-std::vector<std::size_t> labelled_above(const DrawingContext& context, const Layout& layout);
+std::vector<std::size_t> labelled_above(const LayoutContext& context, const Layout& layout);
 /// Room that a label needs above its block, in pixels.
 double label_room_px(const Sizes& sizes);
 
@@ -70,7 +69,7 @@ double label_room_px(const Sizes& sizes);
 Drawable velocity_arrows(const DrawingContext& context);
 
 /// Room that the scene's overlays need above the tallest block, in pixels.
-double room_above_px(const DrawingContext& context, const Layout& layout);
+double room_above_px(const LayoutContext& context, const Layout& layout);
 /// The same below the floor.
 double room_below_px(const Scene& scene);
 
@@ -81,6 +80,8 @@ std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,
 
 /// The walls of a layout, and the floor of a line.
 std::vector<DrawItem> stage_walls(const DrawingContext& context);
+/// Those of the article's picture: bodies of width 1 whose faces are where blocks turn back.
+std::vector<DrawItem> article_walls(const DrawingContext& context);
 
 /// A block in the colours and with the bars of the theme.
 ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, double line_px);

@@ -100,7 +100,7 @@ void fit_heights(double room_px, const View& view, Layout& layout) {
   }
 }
 
-Layout lay_out_line(const DrawingContext& context, const Rect& area, bool is_floor_at_bottom) {
+Layout lay_out_line(const LayoutContext& context, const Rect& area, bool is_floor_at_bottom) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
   const Axis axis(context.scene.system, view, area);
@@ -142,7 +142,7 @@ void check_plane(const View& view, double scale) {
       "move the bodies towards 0");
 }
 
-Layout lay_out_plane(const DrawingContext& context, const Rect& area) {
+Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
   const BodySystem& system = context.scene.system;
@@ -174,7 +174,7 @@ Layout lay_out_plane(const DrawingContext& context, const Rect& area) {
   return layout;
 }
 
-void check_number(const DrawingContext& context) {
+void check_number(const LayoutContext& context) {
   const std::size_t count = context.scene.system.bodies.size();
   const bool is_marked = context.scene.show.has(Overlay::velocities) || has_labels(context);
   const std::size_t most = is_marked ? kMostMarked : kMostDrawn;
@@ -205,7 +205,7 @@ void check_resolution(const View& view, double scale) {
                   step_px / scale, step_px));
 }
 
-double reach_px(const DrawingContext& context) {
+double reach_px(const LayoutContext& context) {
   const Scene& scene = context.scene;
   const CollisionLog* const log = context.pair();
   if (log == nullptr || log->blocks().side < 0) return HUGE_VAL;
@@ -219,7 +219,7 @@ double reach_px(const DrawingContext& context) {
   return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
 }
 
-Layout lay_out_stage(const DrawingContext& context, const Rect& area, bool is_floor_at_bottom) {
+Layout lay_out_stage(const LayoutContext& context, const Rect& area, bool is_floor_at_bottom) {
   check_number(context);
   if (context.is_plane()) return lay_out_plane(context, area);
   return lay_out_line(context, area, is_floor_at_bottom);

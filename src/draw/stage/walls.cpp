@@ -173,7 +173,9 @@ std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,
 }
 
 std::vector<DrawItem> stage_walls(const DrawingContext& context) {
-  return context.is_plane() ? walls_of_plane(context) : walls_of_line(context);
+  if (context.is_plane()) return walls_of_plane(context);
+  return context.scene.view.theme == Theme::article ? article_walls(context)
+                                                    : walls_of_line(context);
 }
 
 }  // namespace piblocks
