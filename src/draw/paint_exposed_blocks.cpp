@@ -202,7 +202,7 @@ class ExposedArea {
 
 /// A pixel depends on its column and its background alone, so that a part of the picture has the
 /// pixels of the whole. Cairo paints a block that stays, except where the other one passes.
-void Painter::paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area) {
+void Painter::paint(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area) {
   const bool has_pixels = has_pixels_of_picture(cr);
   const PixelRect moving = has_pixels ? moving_area(item, area) : PixelRect{};
   std::optional<ExposedArea> exposed;

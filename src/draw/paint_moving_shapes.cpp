@@ -338,7 +338,7 @@ std::vector<Mover> movers_in(const MovingShapesItem& item, const PixelRect& area
 }  // namespace
 
 /// In bands of rows, which bounds the memory.
-void Painter::paint_exposed(cairo_t& cr, const MovingShapesItem& item, const PixelRect& area) {
+void Painter::paint(cairo_t& cr, const MovingShapesItem& item, const PixelRect& area) {
   constexpr int kBand_px = 32;
   if (!has_pixels_of_picture(cr)) return paint_still(cr, item);
   const PixelRect moving = moving_area(item, area);

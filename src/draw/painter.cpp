@@ -99,31 +99,25 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
   for (const DrawItem& item : list.items) {
     check_stop(stop_);
     if (!reaches(item, area)) continue;
-    if (const auto* group = std::get_if<GroupItem>(&item)) {
-      paint_group(cr, *group, area);
-    } else if (const auto* blocks = std::get_if<ExposedBlocksItem>(&item)) {
-      paint_exposed(cr, *blocks, area);
-    } else if (const auto* shapes = std::get_if<MovingShapesItem>(&item)) {
-      paint_exposed(cr, *shapes, area);
-    } else {
-      paint_item(cr, item);
-    }
+    paint_item(cr, item, area);
   }
   check_cairo(cairo_status(&cr), "paint");
 }
 
-void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
-  // cairo_show_text() leaves a current point, and the next path would begin there.
-  cairo_new_path(&cr);
-  if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_shape(cr, *rectangle);
-  if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
-  if (const auto* path = std::get_if<PathItem>(&item)) paint_shape(cr, *path);
-  if (const auto* disc = std::get_if<DiscItem>(&item)) paint_disc(cr, *disc);
-  if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
-  if (const auto* plate = std::get_if<PlateItem>(&item)) paint_plate(cr, *plate);
+void Painter::paint_item(cairo_t& cr, const DrawItem& item, const PixelRect& area) {
+  const auto paint_any = [&](const auto& any) {
+    if constexpr (requires { paint(cr, any, area); }) {
+      paint(cr, any, area);
+    } else if constexpr (requires { paint(cr, any); }) {
+      paint(cr, any);
+    } else {
+      paint_shape(cr, any);
+    }
+  };
+  std::visit(paint_any, item);
 }
 
-void Painter::paint_text(cairo_t& cr, const TextItem& item) {
+void Painter::paint(cairo_t& cr, const TextItem& item) {
   set_color(cr, item.color);
   Point origin = item.origin;
   for (const auto& [font, text] : font(item.face).runs(item.text)) {
@@ -131,6 +125,7 @@ void Painter::paint_text(cairo_t& cr, const TextItem& item) {
     if (setting_ == TextSetting::lines) {
       cairo_move_to(&cr, origin.x, origin.y);
       cairo_show_text(&cr, std::string(text).c_str());
+      cairo_new_path(&cr);  // else the next one would begin where the text ends
     } else {
       for (const cairo_glyph_t& glyph : Font::glyphs(cr, origin, text)) {
         cairo_show_glyphs(&cr, &glyph, 1);
@@ -140,7 +135,7 @@ void Painter::paint_text(cairo_t& cr, const TextItem& item) {
   }
 }
 
-void Painter::paint_disc(cairo_t& cr, const DiscItem& item) {
+void Painter::paint(cairo_t& cr, const DiscItem& item) {
   if (!is_small(item) || !has_pixels_of_picture(cr)) return paint_shape(cr, item);
   const Point place{nearest_place(item.centre.x), nearest_place(item.centre.y)};
   const Point pixel{std::floor(place.x), std::floor(place.y)};
@@ -164,7 +159,7 @@ void Painter::paint_disc(cairo_t& cr, const DiscItem& item) {
               {pixel.x - reach_px, pixel.y - reach_px, double(side_px), double(side_px)});
 }
 
-void Painter::paint_image(cairo_t& cr, const ImageItem& item) {
+void Painter::paint(cairo_t& cr, const ImageItem& item) {
   cairo_surface_t& pixels = kept_pixels(item.image);
   cairo_save(&cr);
   cairo_translate(&cr, item.bounds.x, item.bounds.y);
@@ -175,11 +170,11 @@ void Painter::paint_image(cairo_t& cr, const ImageItem& item) {
   cairo_restore(&cr);
 }
 
-void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
+void Painter::paint(cairo_t& cr, const PlateItem& item) {
   if (setting_ == TextSetting::lines) {
     cairo_save(&cr);
     cairo_translate(&cr, item.origin.x, item.origin.y);
-    for (const DrawItem& inner : item.plate->items) paint_item(cr, inner);
+    for (const DrawItem& inner : item.plate->items) paint_item(cr, inner, {});
     cairo_restore(&cr);
     return;
   }
@@ -192,7 +187,7 @@ CairoSurfacePtr Painter::pixels_of(const PlateItem& item) {
   cairo_surface_set_device_offset(pixels.get(), item.origin.x - item.bounds.x,
                                   item.origin.y - item.bounds.y);
   const CairoPtr inner(cairo_create(pixels.get()));
-  for (const DrawItem& item_on_plate : item.plate->items) paint_item(*inner, item_on_plate);
+  for (const DrawItem& one : item.plate->items) paint_item(*inner, one, {});
   check_cairo(cairo_status(inner.get()), "paint a plate");
   cairo_surface_set_device_offset(pixels.get(), 0, 0);
   return pixels;
@@ -217,7 +212,7 @@ cairo_surface_t& Painter::kept_pixels(const std::shared_ptr<const Image>& image)
 }
 
 /// A vector file can only paint a group over what is behind it.
-void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area) {
+void Painter::paint(cairo_t& cr, const GroupItem& item, const PixelRect& area) {
   const Rect& bounds = item.bounds;
   if (is_on_pixels(item) && has_pixels_of_picture(cr)) {
     paint_group_pixels(cr, item, area);
@@ -225,7 +220,6 @@ void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& a
   }
   const double scale = bounds.width / item.list->width_px;
   cairo_save(&cr);
-  cairo_new_path(&cr);
   cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
   cairo_clip(&cr);
   cairo_translate(&cr, bounds.x, bounds.y);
@@ -275,7 +269,7 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
 void Painter::paint_still(cairo_t& cr, ItemId id, const ExposedBlock& block) {
   std::vector<DrawItem> still;
   add_rectangles(id, block, still);
-  for (const DrawItem& rectangle : still) paint_item(cr, rectangle);
+  for (const DrawItem& rectangle : still) paint_item(cr, rectangle, {});
 }
 
 void Painter::paint_still(cairo_t& cr, const MovingShapesItem& item) {
@@ -283,7 +277,7 @@ void Painter::paint_still(cairo_t& cr, const MovingShapesItem& item) {
     if (const auto* block = std::get_if<ExposedBlock>(&moving.shape)) {
       paint_still(cr, item.id, *block);
     } else {
-      paint_item(cr, std::get<DiscItem>(moving.shape));
+      paint(cr, std::get<DiscItem>(moving.shape));
     }
   }
 }

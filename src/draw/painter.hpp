@@ -88,21 +88,21 @@ class Painter {
   const Font& font(Face face) { return fonts_.of(face); }
 
  private:
-  /// Any item but groups and exposed ones.
-  void paint_item(cairo_t& cr, const DrawItem& item);
-  void paint_text(cairo_t& cr, const TextItem& item);
-  void paint_disc(cairo_t& cr, const DiscItem& item);
-  void paint_image(cairo_t& cr, const ImageItem& item);
-  void paint_plate(cairo_t& cr, const PlateItem& item);
+  /// By the function of its type. @param area  as in paint()
+  void paint_item(cairo_t& cr, const DrawItem& item, const PixelRect& area);
+  void paint(cairo_t& cr, const TextItem& item);
+  void paint(cairo_t& cr, const DiscItem& item);
+  void paint(cairo_t& cr, const ImageItem& item);
+  void paint(cairo_t& cr, const PlateItem& item);
+  void paint(cairo_t& cr, const GroupItem& item, const PixelRect& area);
+  void paint(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area);
+  void paint(cairo_t& cr, const MovingShapesItem& item, const PixelRect& area);
   CairoSurfacePtr pixels_of(const PlateItem& item);
   /// The pixels of this plate, made when a plate of these items is painted first.
   cairo_surface_t& kept_pixels(const PlateItem& item);
   /// The pixels of this image, made when it is painted first.
   cairo_surface_t& kept_pixels(const std::shared_ptr<const Image>& image);
-  void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& area);
-  void paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area);
-  void paint_exposed(cairo_t& cr, const MovingShapesItem& item, const PixelRect& area);
   // At the picture's instant.
   void paint_still(cairo_t& cr, ItemId id, const ExposedBlock& block);
   void paint_still(cairo_t& cr, const MovingShapesItem& item);
