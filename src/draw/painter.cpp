@@ -106,10 +106,10 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
 
 void Painter::paint_item(cairo_t& cr, const DrawItem& item, const PixelRect& area) {
   const auto paint_any = [&](const auto& any) {
-    if constexpr (requires { paint(cr, any, area); }) {
-      paint(cr, any, area);
-    } else if constexpr (requires { paint(cr, any); }) {
-      paint(cr, any);
+    if constexpr (requires { this->paint(cr, any, area); }) {
+      this->paint(cr, any, area);
+    } else if constexpr (requires { this->paint(cr, any); }) {
+      this->paint(cr, any);
     } else {
       paint_shape(cr, any);
     }

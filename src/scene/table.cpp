@@ -52,8 +52,8 @@ constexpr std::size_t kValue_bytes = 8;  // of an index or a number
 /// half as long as one after the other.
 template <std::size_t kColumns>
 // NOLINTNEXTLINE(readability-non-const-parameter): `at` is written to
-void write_columns(const void* const* columns, const std::size_t* places_bytes, std::size_t rows,
-                   std::size_t row_bytes, char* at) {
+void write_columns(char* at, const void* const* columns, const std::size_t* places_bytes,
+                   std::size_t rows, std::size_t row_bytes) {
   std::array<const char*, kColumns> from{};
   std::array<char*, kColumns> to{};
   for (std::size_t k = 0; k < kColumns; ++k) {
@@ -206,6 +206,8 @@ void Table::append_text(const RowText& text, const TableRows& rows, fmt::memory_
 void Table::write_npy(const TableRows& rows, char* at) const {
   constexpr std::size_t kAtOnce = 4;
   std::vector<const void*> columns = rows.columns;
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector fills it
+  // twice
   const auto made = std::make_unique_for_overwrite<std::uint64_t[]>(made_columns_ * rows.size);
   std::uint64_t* next = made.get();
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -222,8 +224,8 @@ void Table::write_npy(const TableRows& rows, char* at) const {
   }
   for (std::size_t i = 0; i < columns.size();) {
     const bool are_many = columns.size() - i >= kAtOnce;
-    (are_many ? write_columns<kAtOnce> : write_columns<1>)(&columns[i], &places_bytes_[i],
-                                                           rows.size, row_bytes_, at);
+    (are_many ? write_columns<kAtOnce> : write_columns<1>)(at, &columns[i], &places_bytes_[i],
+                                                           rows.size, row_bytes_);
     i += are_many ? kAtOnce : 1;
   }
 }
