@@ -3,8 +3,8 @@
 // as far as it asks and no further.
 #pragma once
 
-#include <piblocks/bodies.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/system.hpp>
 
 #include <array>
 #include <cstddef>
@@ -18,20 +18,20 @@
 namespace piblocks {
 
 /// The centre and the velocity of a body at one instant.
-struct BodyMotion {
+struct Motion {
   std::array<double, 2> position = {};
   std::array<double, 2> velocity = {};
-  bool operator==(const BodyMotion&) const = default;
+  bool operator==(const Motion&) const = default;
 };
 
 /// Two bodies, or a body and a wall, just after they have met.
-struct BodyCollision {
+struct Collision {
   Integer index;  ///< as Log counts
   Time time = {};
-  std::uint32_t first = 0;   ///< place of a body in BodySystem::bodies
+  std::uint32_t first = 0;   ///< place of a body in System::bodies
   std::uint32_t second = 0;  ///< of another, > first; or bodies.size() and the place of a wall
-  BodyMotion first_after = {};
-  BodyMotion second_after = {};  ///< of a wall: where it is, and no velocity
+  Motion first_after = {};
+  Motion second_after = {};  ///< of a wall: where it is, and no velocity
 };
 
 /// A place on a body's way.
@@ -41,9 +41,9 @@ struct PathPoint {
 };
 
 /// All bodies at one instant.
-struct BodiesState {
+struct State {
   Integer count;  ///< index of the last collision until then
-  std::vector<BodyMotion> bodies;
+  std::vector<Motion> bodies;
 };
 
 /// On a line, collisions are computed in rational numbers while none of these has more bits, and
@@ -52,9 +52,9 @@ inline constexpr std::size_t kMaxExactBits = 4096;
 inline constexpr std::int64_t kMaxExactCollisions = 100'000;
 
 /// Most collisions that are stored, at 160 bytes each.
-inline constexpr std::int64_t kMaxBodyCollisions = 2'000'000;
+inline constexpr std::int64_t kMaxSteppedCollisions = 2'000'000;
 
-class CollisionLog;
+class PairLog;
 struct Impact;  // physics/impact.hpp
 enum class CollisionKind : std::uint8_t;
 
@@ -63,14 +63,15 @@ enum class CollisionKind : std::uint8_t;
 /// collisions at one instant happen in the order of TieRank (contact.hpp).
 ///
 /// No answer depends on earlier questions. Const members are thread-safe. Those that have to step
-/// more than kMaxBodyCollisions, or a number beyond the range of a double, throw SimulationError.
+/// more than kMaxSteppedCollisions, or a number beyond the range of a double, throw
+/// SimulationError.
 class Log {
  public:
   virtual ~Log() = default;
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  const BodySystem& system() const noexcept { return system_; }
+  const System& system() const noexcept { return system_; }
 
   /// Index of the first collision of all time; 1 if there are none before time 0.
   virtual Integer first_index() const { return 1; }
@@ -91,7 +92,7 @@ class Log {
   bool is_listed(const Integer& index) const;
   /// The collision with this index, if has(index).
   /// @throws SimulationError if its time or state is beyond the range of a double.
-  virtual BodyCollision collision(const Integer& index) const = 0;
+  virtual Collision collision(const Integer& index) const = 0;
   /// When it happens, to two doubles. @throws as collision()
   virtual Time collision_time(const Integer& index) const { return collision(index).time; }
   /// A time at which exactly the collisions up to this one have happened: that of the collision if
@@ -103,8 +104,8 @@ class Log {
 
   /// The bodies at a time. A collision exactly at `time` has happened.
   /// @throws UsageError if the time is negative, unless the past is known; SimulationError if there
-  ///         are more than kMaxBodyCollisions until then.
-  virtual BodiesState state_at(const Rational& time) const = 0;
+  ///         are more than kMaxSteppedCollisions until then.
+  virtual State state_at(const Rational& time) const = 0;
   /// Index of the last collision until then; 0 for times before 0 whose past is not known.
   virtual Integer count_at(const Rational& time) const = 0;
   /// The first collision at this time or later; the one after the last if there is none.
@@ -138,13 +139,13 @@ class Log {
                                        const Integer& last) const;
 
   /// The log of two blocks beside something immovable; else nullptr.
-  virtual const CollisionLog* pair() const noexcept { return nullptr; }
+  virtual const PairLog* pair() const noexcept { return nullptr; }
 
  protected:
-  explicit Log(BodySystem system) : system_(std::move(system)) {}
+  explicit Log(System system) : system_(std::move(system)) {}
 
  private:
-  BodySystem system_;
+  System system_;
 };
 
 enum class Engine {
@@ -163,7 +164,7 @@ inline constexpr std::size_t kMaxEventBodies = 1000;
 /// or
 ///         Engine::events is asked for more than kMaxEventBodies, for more than
 ///         kMaxStoredCollisions of two blocks, or for inelastic ones.
-std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon = {},
+std::unique_ptr<Log> make_log(const System& system, const std::optional<Rational>& horizon = {},
                               const std::stop_token& stop = {}, Engine engine = Engine::unfolded);
 
 }  // namespace piblocks

@@ -3,20 +3,19 @@
 // comparisons.
 #pragma once
 
-#include <piblocks/block_system.hpp>
-#include <piblocks/bodies.hpp>
 #include <piblocks/compare.hpp>
+#include <piblocks/log.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
+#include <piblocks/system.hpp>
+
+// More: two blocks and pi, exact numbers, instants, collisions of one's own, pixels, encoders.
 #include <piblocks/contact.hpp>
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/log.hpp>
-#include <piblocks/pacing.hpp>
-#include <piblocks/render.hpp>
-#include <piblocks/restitution.hpp>
-#include <piblocks/run.hpp>
-#include <piblocks/scene.hpp>
-#include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 #include <piblocks/version.hpp>

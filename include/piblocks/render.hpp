@@ -163,7 +163,7 @@ class FrameRenderer {
  public:
   /// @throws SceneError if problems_of() the scene or storyboard is not empty.
   /// @throws UsageError if the span, the pacing or the length of the film is impossible, as
-  ///         make_collision_log(), or if a fade is not shorter than its segments; SimulationError,
+  ///         make_pair_log(), or if a fade is not shorter than its segments; SimulationError,
   ///         DrawError
   explicit FrameRenderer(const Script& script);
   ~FrameRenderer();
@@ -186,8 +186,8 @@ class FrameRenderer {
   void copy_frame(std::int64_t number, std::span<std::uint8_t> buffer, std::ptrdiff_t stride_bytes);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace piblocks

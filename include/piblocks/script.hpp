@@ -130,8 +130,8 @@ class ScriptBuilder {
   Scene build_scene() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace piblocks

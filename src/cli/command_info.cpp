@@ -3,9 +3,9 @@
 #include <piblocks/exact.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 #include <piblocks/version.hpp>
 
 #include "cli/command.hpp"
@@ -13,7 +13,7 @@
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
-#include "physics/blocks.hpp"
+#include "physics/versions.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks::cli {
@@ -44,7 +44,7 @@ void print_limits(TextOutput& out) {
   out.format_line("  bodies: {}, walls: {}", kMaxBodies, kMaxWalls);
   out.format_line(
       "  collisions of bodies: {}; of blocks on a line in rational numbers of at most {} bits",
-      kMaxBodyCollisions, kMaxExactBits);
+      kMaxSteppedCollisions, kMaxExactBits);
   out.format_line("  lines of a framehash file: {}", kMaxHashes);
 }
 

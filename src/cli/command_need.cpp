@@ -1,6 +1,5 @@
 #include <fmt/format.h>
-#include <piblocks/restitution.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <string>
@@ -47,7 +46,7 @@ std::string loss_text(const Rational& loss) {
 }
 
 Integer count_with(const Rational& restitution, int digits, int base) {
-  BodySystem system = article_system(digits, base);
+  System system = article_system(digits, base);
   system.restitution = system.wall_restitution = restitution;
   return count_collisions(system);
 }

@@ -2,7 +2,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -2,8 +2,8 @@
 // In: the command line. Out: a valid scene or storyboard, and the log of its collisions.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <optional>
 #include <string>

@@ -4,8 +4,8 @@
 
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <memory>
 

@@ -36,7 +36,7 @@ void check(bool is_finite, const Rational& time) {
                   short_text(time)));
 }
 
-bool is_finite(const BodyMotion& motion) {
+bool is_finite(const Motion& motion) {
   const auto is_number = [](double value) { return std::isfinite(value); };
   return std::ranges::all_of(motion.position, is_number) &&
          std::ranges::all_of(motion.velocity, is_number);
@@ -216,7 +216,7 @@ Composition::Composition(const Scene& scene, const Log& log, std::shared_ptr<con
       needs_(needs_of(drawables_)) {}
 
 DrawList Composition::frame(const FrameState& shown) const {
-  for (const BodyMotion& body : shown.state.bodies) check(is_finite(body), shown.time);
+  for (const Motion& body : shown.state.bodies) check(is_finite(body), shown.time);
   DrawList list = empty_;
   for (const Drawable& drawable : drawables_) drawable.add(shown, list.items);
   check(are_finite(list.items), shown.time);

@@ -20,7 +20,7 @@ namespace piblocks {
 /// An interval of the time for which a frame is exposed, and its share of that time.
 struct WeightedExposure {
   double share = 1;  ///< the shares of a frame add up to 1
-  BodyExposure exposure;
+  Exposure exposure;
 };
 
 /// How long a hit is seen, in seconds of video.
@@ -28,7 +28,7 @@ inline constexpr double kHitLife_s = 0.15;
 /// Most collisions per second of video that are listed as hits.
 inline constexpr int kMaxHitsPerSecond = 8;
 
-/// Places of two bodies in BodySystem; or of a body, and the number of bodies plus the place of a
+/// Places of two bodies in System; or of a body, and the number of bodies plus the place of a
 /// wall.
 using MetPair = std::array<std::uint32_t, 2>;
 
@@ -43,10 +43,10 @@ struct Hit {
 };
 
 /// All bodies at the instant of a frame.
-struct ShownState : BodiesState {
+struct ShownState : State {
   ShownState() = default;
-  ShownState(BodiesState state) : BodiesState(std::move(state)) {}
-  ShownState(BlockState state) : BodiesState(bodies_state(std::move(state))) {}
+  ShownState(State state) : State(std::move(state)) {}
+  ShownState(PairState state) : State(bodies_state(std::move(state))) {}
 };
 
 /// What a frame is drawn from. It depends on nothing but the frame.

@@ -82,7 +82,7 @@ class DwellTable {
   std::vector<double> shares_;
 };
 
-const Exposure& blocks_of(const WeightedExposure& weighted) {
+const PairExposure& blocks_of(const WeightedExposure& weighted) {
   return weighted.exposure.closed->blocks;
 }
 
@@ -100,7 +100,7 @@ std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
   DwellTable table(range, spacing_px(range.to - range.from));
   for (const WeightedExposure& weighted : exposures) {
     const double weight = weighted.share;
-    const Exposure& exposure = blocks_of(weighted);
+    const PairExposure& exposure = blocks_of(weighted);
     if (const auto& area_below = exposure.area_below) {
       table.add(weight, to_px(exposure.range(block)),
                 [&](double x) { return area_below(block, to_px.back(x)) * to_px.scale; });

@@ -2,8 +2,8 @@
 // In: a scene and its collision log. Out: places that do not overlap, for any shape of frame.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <array>
@@ -89,9 +89,9 @@ struct LayoutContext {
   const Sizes& sizes;
 
   /// Of two blocks beside a wall, for what is drawn for them alone.
-  const CollisionLog& two_blocks() const { return *pair(); }
+  const PairLog& two_blocks() const { return *pair(); }
   /// Nothing where the scene has other bodies.
-  const CollisionLog* pair() const { return log.pair(); }
+  const PairLog* pair() const { return log.pair(); }
   bool is_plane() const noexcept { return scene.system.dimensions == 2; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };
@@ -176,6 +176,6 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
 }
 
 /// The sum of mass · velocity² of all bodies that move, which never changes.
-Rational twice_energy(const BodySystem& system);
+Rational twice_energy(const System& system);
 
 }  // namespace piblocks

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,15 +2,15 @@
 // In: a scene; states. Out: bodies; states of bodies.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include "physics/exposure.hpp"
 
 namespace piblocks {
 
-BodiesState bodies_state(BlockState state);
+State bodies_state(PairState state);
 /// The two blocks of a state, as seen from what is immovable beside them.
-BlockState blocks_state(const BodiesState& state, const TwoBlocks& blocks);
+PairState blocks_state(const State& state, const TwoBlocks& blocks);
 
 }  // namespace piblocks

@@ -189,7 +189,7 @@ void CertifiedLine::replay_around(std::size_t pair) {
   }
 }
 
-std::optional<BodyStep> CertifiedLine::step() {
+std::optional<SteppedCollision> CertifiedLine::step() {
   if (pairs_.empty()) return std::nullopt;
   for (;;) {
     const std::size_t pair = next_.winner();
@@ -209,9 +209,7 @@ std::optional<BodyStep> CertifiedLine::step() {
     collide(pair);
     pairs_[pair].has_met = true;
     replay_around(pair);
-    const auto motion = [](const Element& e) {
-      return BodyMotion{{e.position, 0}, {e.velocity, 0}};
-    };
+    const auto motion = [](const Element& e) { return Motion{{e.position, 0}, {e.velocity, 0}}; };
     const Time sum = two_sum(begin_.hi, due);
     const Element& left = elements_[pair];
     const Element& right = elements_[pair + 1];

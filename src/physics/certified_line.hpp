@@ -3,14 +3,14 @@
 // their order.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "physics/body_stepper.hpp"
 #include "physics/exact_line.hpp"
+#include "physics/stepper.hpp"
 #include "physics/tournament.hpp"
 
 namespace piblocks {
@@ -27,7 +27,7 @@ class CertifiedLine {
 
   /// The next collision; none if there will be no more.
   /// @throws SimulationError if a number leaves the range of a double.
-  std::optional<BodyStep> step();
+  std::optional<SteppedCollision> step();
   Certainty certainty() const;
 
  private:

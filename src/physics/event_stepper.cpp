@@ -8,21 +8,21 @@
 #include <optional>
 #include <vector>
 
-#include "physics/body_stepper.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks {
 namespace {
 
 /// The public simulator with a system's bodies, and its walls after them.
 template <int Dim>
-class EventStepper final : public BodyStepper {
+class EventStepper final : public Stepper {
  public:
-  explicit EventStepper(const BodySystem& system) : simulator_(particles_of(system)) {}
+  explicit EventStepper(const System& system) : simulator_(particles_of(system)) {}
 
-  std::optional<BodyStep> step() override {
+  std::optional<SteppedCollision> step() override {
     const auto event = simulator_.step();
     if (!event) return std::nullopt;
-    BodyStep step;
+    SteppedCollision step;
     step.time = {event->time, 0};
     step.first = static_cast<std::uint32_t>(event->first);
     step.second = static_cast<std::uint32_t>(event->second);
@@ -43,13 +43,13 @@ class EventStepper final : public BodyStepper {
                    [](const Rational& x) { return to_double(x); });
     return vector;
   }
-  static BodyMotion motion_of(const Particle& particle) {
-    BodyMotion motion;
+  static Motion motion_of(const Particle& particle) {
+    Motion motion;
     std::ranges::copy(particle.position, motion.position.begin());
     std::ranges::copy(particle.velocity, motion.velocity.begin());
     return motion;
   }
-  static std::vector<Particle> particles_of(const BodySystem& system) {
+  static std::vector<Particle> particles_of(const System& system) {
     std::vector<Particle> particles;
     for (const Body& body : system.bodies) {
       particles.push_back({.mass = body.mass ? to_double(*body.mass) : kInfiniteMass<double>,
@@ -70,7 +70,7 @@ class EventStepper final : public BodyStepper {
 
 }  // namespace
 
-std::unique_ptr<BodyStepper> make_event_stepper(const BodySystem& system) {
+std::unique_ptr<Stepper> make_event_stepper(const System& system) {
   if (system.bodies.size() > kMaxEventBodies) {
     throw UsageError(fmt::format(
         "event loop: {} bodies are more than the limit of {}; leave out --engine events",

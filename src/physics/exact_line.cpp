@@ -13,7 +13,7 @@ std::size_t bits_of(const Rational& value) {
   return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
 }
 
-BodyMotion motion_of(const LineElement& element) {
+Motion motion_of(const LineElement& element) {
   return {{to_double(element.position), 0}, {to_double(element.velocity), 0}};
 }
 
@@ -25,7 +25,7 @@ void collide(LineElement& left, LineElement& right) {
 
 /// The wall on one side of all blocks that is next to them; nothing if there is none.
 /// @param sign  of the normal: 1 for walls on the left
-std::optional<LineElement> nearest_wall(const BodySystem& system, int sign) {
+std::optional<LineElement> nearest_wall(const System& system, int sign) {
   std::optional<LineElement> nearest;
   for (std::size_t i = 0; i < system.walls.size(); ++i) {
     const Wall& wall = system.walls[i];
@@ -44,7 +44,7 @@ TieRank rank_of(const LineElement& a, const LineElement& b) {
   return TieRank::of(a.id, a.mass.has_value(), b.id, b.mass.has_value());
 }
 
-std::vector<LineElement> elements_of(const BodySystem& system) {
+std::vector<LineElement> elements_of(const System& system) {
   std::vector<LineElement> elements;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const Body& body = system.bodies[i];
@@ -57,9 +57,9 @@ std::vector<LineElement> elements_of(const BodySystem& system) {
   return elements;
 }
 
-BodyStep step_of(const Time& time, std::uint32_t left_id, const BodyMotion& left,
-                 std::uint32_t right_id, const BodyMotion& right) {
-  BodyStep step{.time = time};
+SteppedCollision step_of(const Time& time, std::uint32_t left_id, const Motion& left,
+                         std::uint32_t right_id, const Motion& right) {
+  SteppedCollision step{.time = time};
   const bool is_left_first = left_id < right_id;
   std::tie(step.first, step.second) = std::minmax(left_id, right_id);
   step.first_after = is_left_first ? left : right;
@@ -67,7 +67,7 @@ BodyStep step_of(const Time& time, std::uint32_t left_id, const BodyMotion& left
   return step;
 }
 
-ExactLine::ExactLine(const BodySystem& system)
+ExactLine::ExactLine(const System& system)
     : elements_(elements_of(system)),
       meetings_(elements_.size() - 1),
       next_(std::max<std::size_t>(meetings_.size(), 1), Earlier{*this}) {
@@ -95,7 +95,7 @@ void ExactLine::predict(std::size_t pair) {
   if (wait) meetings_[pair] = time_ + *wait;
 }
 
-std::optional<BodyStep> ExactLine::step() {
+std::optional<SteppedCollision> ExactLine::step() {
   if (meetings_.empty()) return std::nullopt;
   const std::size_t pair = next_.winner();
   if (!meetings_[pair]) return std::nullopt;
@@ -122,7 +122,8 @@ std::optional<BodyStep> ExactLine::step() {
     predict(pair + 1);
     next_.replay(pair + 1);
   }
-  BodyStep step = step_of(to_time(time_), left.id, motion_of(left), right.id, motion_of(right));
+  SteppedCollision step =
+      step_of(to_time(time_), left.id, motion_of(left), right.id, motion_of(right));
   step.exact_time = time_;
   step.is_tied = is_tied;
   return step;

@@ -1,22 +1,22 @@
 // Blocks on a line, from collision to collision in rational numbers.
-// In: a BodySystem of one dimension, without problems. Out: its collisions, without rounding; the
+// In: a System of one dimension, without problems. Out: its collisions, without rounding; the
 // state from which another engine goes on.
 #pragma once
 
-#include <piblocks/bodies.hpp>
 #include <piblocks/contact.hpp>
+#include <piblocks/system.hpp>
 
 #include <optional>
 #include <vector>
 
-#include "physics/body_stepper.hpp"
+#include "physics/stepper.hpp"
 #include "physics/tournament.hpp"
 
 namespace piblocks {
 
 /// A block or a wall, at one instant.
 struct LineElement {
-  std::uint32_t id = 0;          ///< as in BodyCollision
+  std::uint32_t id = 0;          ///< as in Collision
   std::optional<Rational> mass;  ///< nothing: no collision moves it
   Rational half_width;           ///< 0 for a wall
   Rational position;             ///< of the centre, at the time `since`
@@ -30,23 +30,23 @@ struct LineElement {
 TieRank rank_of(const LineElement& a, const LineElement& b);
 
 /// The blocks, and the walls next to them, from left to right.
-std::vector<LineElement> elements_of(const BodySystem& system);
+std::vector<LineElement> elements_of(const System& system);
 
 /// Of two neighbours on the line whose motions come from an engine: the step, with the lower id
 /// first.
-BodyStep step_of(const Time& time, std::uint32_t left_id, const BodyMotion& left,
-                 std::uint32_t right_id, const BodyMotion& right);
+SteppedCollision step_of(const Time& time, std::uint32_t left_id, const Motion& left,
+                         std::uint32_t right_id, const Motion& right);
 
 class ExactLine {
  public:
-  explicit ExactLine(const BodySystem& system);
+  explicit ExactLine(const System& system);
   // The tournament's comparison refers to this.
   ExactLine(const ExactLine&) = delete;
   ExactLine& operator=(const ExactLine&) = delete;
   ~ExactLine() = default;
 
   /// The next collision; none if there will be no more.
-  std::optional<BodyStep> step();
+  std::optional<SteppedCollision> step();
   /// The longest number of the last step, numerator and denominator together.
   std::size_t bits() const noexcept { return bits_; }
   const std::vector<LineElement>& elements() const noexcept { return elements_; }

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/blocks.hpp"
+#include "physics/block_motion.hpp"
+#include "physics/logs.hpp"
 
 namespace piblocks {
 namespace {
@@ -63,9 +64,9 @@ std::vector<ExactCollision> run(const TwoBlocks& system) {
 }
 
 /// Rounded once.
-Collision rounded_collision(const Integer& index, const ExactCollision& exact) {
-  Collision result{index, to_time(exact.time), exact.kind, motion_of(exact.blocks.blue),
-                   motion_of(exact.blocks.red)};
+PairCollision rounded_collision(const Integer& index, const ExactCollision& exact) {
+  PairCollision result{index, to_time(exact.time), exact.kind, motion_of(exact.blocks.blue),
+                       motion_of(exact.blocks.red)};
   require_finite(result.time, result.blue, result.red, "exact events");
   return result;
 }
@@ -75,10 +76,10 @@ Gaps gaps_of(const TwoBlocks& blocks) {
   return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
 }
 
-class ExactLog final : public CollisionLog {
+class ExactLog final : public PairLog {
  public:
-  explicit ExactLog(const BodySystem& system)
-      : CollisionLog(system), start_{0, CollisionKind::wall, blocks()} {
+  explicit ExactLog(const System& system)
+      : PairLog(system), start_{0, CollisionKind::wall, blocks()} {
     // Before time 0 the velocities just after a collision are the opposite of those just before it
     // in the reversed run.
     for (ExactCollision& event : run(reversed(blocks()))) {
@@ -93,13 +94,13 @@ class ExactLog final : public CollisionLog {
     set_range(1 - past, events_.size() - past);
   }
 
-  Collision blocks_collision(const Integer& index) const override {
+  PairCollision blocks_collision(const Integer& index) const override {
     return rounded_collision(index, event(index));
   }
 
-  BlockState blocks_at(const Rational& time) const override {
+  PairState blocks_at(const Rational& time) const override {
     const Integer count = first_index() - 1 + Integer(happened(time) - events_.begin());
-    const Collision at = rounded_collision(count, {time, CollisionKind::wall, system_at(time)});
+    const PairCollision at = rounded_collision(count, {time, CollisionKind::wall, system_at(time)});
     return {at.index, at.blue, at.red};
   }
 
@@ -110,7 +111,7 @@ class ExactLog final : public CollisionLog {
 
   std::optional<PositionBounds> bounds_at(const Rational& time) const override {
     constexpr double kRounding = 0x1p-53;
-    const BlockState now = blocks_at(time);
+    const PairState now = blocks_at(time);
     return PositionBounds{kRounding * std::fabs(now.blue.position),
                           kRounding * std::fabs(now.red.position)};
   }
@@ -144,7 +145,7 @@ class ExactLog final : public CollisionLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_exact_log(const BodySystem& system) {
+std::unique_ptr<PairLog> make_exact_log(const System& system) {
   return std::make_unique<ExactLog>(system);
 }
 

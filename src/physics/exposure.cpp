@@ -17,23 +17,23 @@ constexpr long kSlices = 256;
 constexpr long kListedOfSlice = 8;
 
 /// From an instant and its state to a later one, from collision to collision.
-void add_flights(const CollisionLog& log, Time now, const Integer& count, const Rational& end,
-                 const BlockState& stop, PieceList& pieces) {
-  const auto go_to = [&](const Time& time, const Motion& blue, const Motion& red) {
+void add_flights(const PairLog& log, Time now, const Integer& count, const Rational& end,
+                 const PairState& stop, PieceList& pieces) {
+  const auto go_to = [&](const Time& time, const BlockMotion& blue, const BlockMotion& red) {
     // The times of an event loop can be out of order by their rounding.
     pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue.position, red.position);
     now = time;
   };
   for (Integer index = count + 1; index <= stop.count; ++index) {
-    const Collision collision = log.blocks_collision(index);
+    const PairCollision collision = log.blocks_collision(index);
     go_to(collision.time, collision.blue, collision.red);
   }
   go_to(to_time(end), stop.blue, stop.red);
 }
 
 /// Many bounces, by two there and back: between wall and red blue is everywhere for the same time.
-void add_bounces(const TwoBlocks& system, double duration, const BlockState& start,
-                 const BlockState& stop, PieceList& pieces) {
+void add_bounces(const TwoBlocks& system, double duration, const PairState& start,
+                 const PairState& stop, PieceList& pieces) {
   const double wall = to_double(system.wall_face + system.blue.width / 2);
   const double to_red = to_double((system.blue.width + system.red.width) / 2);
   const std::array<double, 6> stops = {start.blue.position,         wall,
@@ -51,14 +51,14 @@ void add_bounces(const TwoBlocks& system, double duration, const BlockState& sta
   }
 }
 
-Exposure sliced(const CollisionLog& log, const Rational& begin, const Rational& end,
-                BlockState state) {
+PairExposure sliced(const PairLog& log, const Rational& begin, const Rational& end,
+                    PairState state) {
   PieceList pieces(state.blue.position, state.red.position);
   const Rational length = (end - begin) / kSlices;
   for (long slice = 0; slice < kSlices; ++slice) {
     const Rational from = begin + length * slice;
     const Rational to = from + length;
-    BlockState stop = log.blocks_at(to);
+    PairState stop = log.blocks_at(to);
     if (stop.count - state.count <= kListedOfSlice) {
       add_flights(log, to_time(from), state.count, to, stop, pieces);
     } else {
@@ -67,6 +67,28 @@ Exposure sliced(const CollisionLog& log, const Rational& begin, const Rational& 
     state = std::move(stop);
   }
   return pieces.exposure();
+}
+
+std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
+  const double length = path.back().after;
+  if (!(length > 0)) return {{0, 1, path.front().position, path.back().position}};
+  std::vector<BodyPiece> pieces;
+  double begin = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    // Rounding may put the times of two collisions in the wrong order.
+    const double end = std::clamp(path[i].after / length, begin, 1.0);
+    const auto stays = [&](const BodyPiece& piece) {
+      return piece.from == path[i].position && piece.to == path[i].position;
+    };
+    // One that never moves may be met by others very often.
+    if (!pieces.empty() && stays(pieces.back()) && path[i - 1].position == path[i].position) {
+      pieces.back().end = end;
+    } else {
+      pieces.push_back({begin, end, path[i - 1].position, path[i].position});
+    }
+    begin = end;
+  }
+  return pieces;
 }
 
 }  // namespace
@@ -89,10 +111,10 @@ std::vector<UniformPiece> PieceList::take(double total) {
   return std::move(pieces_);
 }
 
-Exposure PieceList::exposure() {
+PairExposure PieceList::exposure() {
   double total = 0;
   for (const UniformPiece& piece : pieces_) total += piece.share;
-  Exposure exposure{.pieces = take(total)};
+  PairExposure exposure{.pieces = take(total)};
   const UniformPiece& first = exposure.pieces.front();
   exposure.blue_range = {first.blue.from, first.blue.from};
   exposure.red_range = {first.red.from, first.red.from};
@@ -114,9 +136,9 @@ RayPhase UnfoldedLog::ray_phase(const Integer& ray) const {
 }
 
 /// Before all collisions, which happen at once, and after them.
-Exposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
-  const BlockState start = blocks_at(begin);
-  const BlockState stop = blocks_at(end);
+PairExposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
+  const PairState start = blocks_at(begin);
+  const PairState stop = blocks_at(end);
   PieceList pieces(start.blue.position, start.red.position);
   Rational now = begin;
   if (begin < exact_.closest_approach && exact_.closest_approach < end) {
@@ -127,18 +149,18 @@ Exposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) 
   return pieces.exposure();
 }
 
-Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const {
+PairExposure UnfoldedLog::expose(const Rational& first, const Rational& last) const {
   if (exact_.through_corner()) return expose_corner(first, last);
   const LinePoint first_point = point_at(first);
   const LinePoint last_point = point_at(last);
   const Phase first_phase = phase_of(first_point, first);
   const Phase last_phase = phase_of(last_point, last);
-  const BlockState start = state_of(first_point, first_phase, first);
-  const BlockState stop = state_of(last_point, last_phase, last);
+  const PairState start = state_of(first_point, first_phase, first);
+  const PairState stop = state_of(last_point, last_phase, last);
   const Integer first_ray = ray_of(start.count) + 1;
   const Integer last_ray = ray_of(stop.count);
   if (last_ray - first_ray >= Integer(long(kMaxListedCollisions))) {
-    const auto interval_end = [&](const LinePoint& point, const BlockState& state,
+    const auto interval_end = [&](const LinePoint& point, const PairState& state,
                                   const Integer& ray) {
       return IntervalEnd{point.tau, state.blue.position - form_.blue_offset,
                          state.red.position - form_.red_offset, ray_phase(ray), is_odd(ray)};
@@ -170,23 +192,39 @@ Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const 
   return pieces.exposure();
 }
 
-Exposure CollisionLog::expose(const Rational& from, const Rational& to) const {
-  const BlockState start = blocks_at(from);
-  const BlockState stop = blocks_at(to);
+PairExposure PairLog::expose(const Rational& from, const Rational& to) const {
+  const PairState start = blocks_at(from);
+  const PairState stop = blocks_at(to);
   PieceList pieces(start.blue.position, start.red.position);
   add_flights(*this, to_time(from), start.count, to, stop, pieces);
   return pieces.exposure();
 }
 
-Exposure InelasticLog::expose(const Rational& from, const Rational& to) const {
-  BlockState start = blocks_at(from);
+PairExposure InelasticLog::expose(const Rational& from, const Rational& to) const {
+  PairState start = blocks_at(from);
   const bool is_listed = count_at(to) - start.count <= long(kMaxListedCollisions);
-  return is_listed ? CollisionLog::expose(from, to) : sliced(*this, from, to, std::move(start));
+  return is_listed ? PairLog::expose(from, to) : sliced(*this, from, to, std::move(start));
 }
 
-Exposure expose(const CollisionLog& log, const Rational& begin, const Rational& end) {
+PairExposure expose(const PairLog& log, const Rational& begin, const Rational& end) {
   const auto& [first, last] = std::minmax(begin, end);
   return log.expose(first, last);
+}
+
+Exposure expose(const Log& log, const Rational& begin, const Rational& end) {
+  if (end < begin) return expose(log, end, begin);
+  if (const PairLog* const pair = log.pair()) {
+    const TwoBlocks& blocks = pair->blocks();
+    return {{},
+            ClosedExposure{pair->expose(begin, end), blocks.blue_id, blocks.red_id, blocks.side}};
+  }
+  // What is stepped can be listed: a log has no more than kMaxSteppedCollisions.
+  constexpr auto kAll = static_cast<std::size_t>(kMaxSteppedCollisions);
+  Exposure exposure;
+  for (const std::vector<PathPoint>& path : log.paths(begin, end, kAll)) {
+    exposure.pieces.push_back(pieces_of(path));
+  }
+  return exposure;
 }
 
 }  // namespace piblocks

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <piblocks/log.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ struct UniformPiece {
 inline constexpr std::size_t kMaxListedCollisions = 512;
 
 /// An interval of time. In one of no length the blocks are where they are at that instant.
-struct Exposure {
+struct PairExposure {
   /// Both blocks together, in the order of time; shares add up to 1. If area_below is given, a few
   /// slow bounces between the same places stand in for many fast ones. Use these only for the
   /// distance between the blocks; they are true to the first order in the time of a bounce.
@@ -73,7 +73,7 @@ struct BodyPiece {
 
 /// Two bodies that move as the blocks of an Exposure do, beside others that stay.
 struct ClosedExposure {
-  Exposure blocks;
+  PairExposure blocks;
   std::size_t blue = 0;  ///< the body that moves as blue does
   std::size_t red = 0;
   int sign =
@@ -83,7 +83,7 @@ struct ClosedExposure {
 };
 
 /// Any bodies in an interval of time.
-struct BodyExposure {
+struct Exposure {
   /// Of each body, in the order of time; none if the motion is a closed form.
   std::vector<std::vector<BodyPiece>> pieces = {};
   std::optional<ClosedExposure> closed = {};
@@ -93,12 +93,12 @@ struct BodyExposure {
 /// Every collision is listed, but for those that the closed form sums up. Valid after its log is
 /// gone.
 /// @throws as Log::state_at().
-BodyExposure expose(const Log& log, const Rational& begin, const Rational& end);
+Exposure expose(const Log& log, const Rational& begin, const Rational& end);
 
 /// The interval between two times, in either order, and also before time 0. Valid after its log is
 /// gone.
-/// @throws SimulationError as CollisionLog::blocks_collision().
-Exposure expose(const CollisionLog& log, const Rational& begin, const Rational& end);
+/// @throws SimulationError as PairLog::blocks_collision().
+PairExposure expose(const PairLog& log, const Rational& begin, const Rational& end);
 
 /// Collects pieces from instant to instant.
 class PieceList {
@@ -109,7 +109,7 @@ class PieceList {
   /// Durations as shares of `total`.
   std::vector<UniformPiece> take(double total);
   /// Of at least one piece.
-  Exposure exposure();
+  PairExposure exposure();
 
  private:
   double blue_;

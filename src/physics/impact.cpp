@@ -1,5 +1,11 @@
 #include "physics/impact.hpp"
 
+#include <piblocks/contact.hpp>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
 #include "core/real.hpp"
 #include "core/two_sum.hpp"
 #include "physics/inelastic_log.hpp"
@@ -9,7 +15,7 @@ namespace piblocks {
 namespace {
 
 /// In the unit of Impact. Exact up to one root: masses can be beyond the range of a double.
-double impulse_of(const Rational& mass_ratio, const Collision& collision) {
+double impulse_of(const Rational& mass_ratio, const PairCollision& collision) {
   constexpr mpfr_prec_t kPrecision_bits = 64;
   const Rational blue(collision.blue.velocity);
   const Rational red(collision.red.velocity);
@@ -17,6 +23,58 @@ double impulse_of(const Rational& mass_ratio, const Collision& collision) {
                                                                 : Rational(red - blue);
   const Rational speed_squared = mass_ratio * blue * blue + red * red;
   return sqrt(Real(kPrecision_bits, change * change / speed_squared)).to_double();
+}
+
+/// The impulse that a body of mean mass would get if it met a wall at the mean speed. Sums have
+/// more bits than are seen: those of exact fractions would grow with the number of bodies.
+double usual_impulse(const System& system) {
+  constexpr mpfr_prec_t kPrecision_bits = 256;
+  Real mass(kPrecision_bits, 0);
+  Real twice_energy(kPrecision_bits, 0);
+  unsigned long movable = 0;
+  for (const Body& body : system.bodies) {
+    if (!body.mass) continue;
+    const auto& [x, y] = body.velocity;
+    mass = mass + Real(kPrecision_bits, *body.mass);
+    twice_energy = twice_energy + Real(kPrecision_bits, *body.mass * (x * x + y * y));
+    ++movable;
+  }
+  return 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
+}
+
+/// Where a body or a wall touches the first body of a collision, seen from that body's centre.
+std::array<double, 2> way_to(const System& system, const Collision& collision) {
+  const auto& from = collision.first_after.position;
+  const auto& to = collision.second_after.position;
+  if (collision.second < system.bodies.size()) return {to[0] - from[0], to[1] - from[1]};
+  const ExactVector& normal = system.walls[collision.second - system.bodies.size()].normal;
+  return {-to_double(normal[0]), -to_double(normal[1])};
+}
+
+/// Both velocities along the line between them are reversed as seen from their common centre of
+/// mass, so that what they are afterwards says how large the impulse was.
+double impulse_of(const System& system, const Collision& collision) {
+  const auto mass = [&](std::uint32_t id) -> std::optional<double> {
+    if (id >= system.bodies.size() || !system.bodies[id].mass) return std::nullopt;
+    return to_double(*system.bodies[id].mass);
+  };
+  const std::array<double, 2> way = way_to(system, collision);
+  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
+  const auto& u = collision.first_after.velocity;
+  const auto& v = collision.second_after.velocity;
+  const double speed =
+      std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
+  std::optional<double> own = mass(collision.first);
+  std::optional<double> other = mass(collision.second);
+  if (!own) std::swap(own, other);
+  return *own * velocity_change(speed, share_of_change(own, other));
+}
+
+bool is_at_wall(const System& system, const Collision& collision) {
+  const auto is_fixed = [&](std::uint32_t id) {
+    return id >= system.bodies.size() || !system.bodies[id].mass;
+  };
+  return is_fixed(collision.first) || is_fixed(collision.second);
 }
 
 }  // namespace
@@ -49,22 +107,22 @@ Integer UnfoldedLog::count_near(const Time& time) const {
   return exact_.count_from_ray(phase_of(point, exact).ray);
 }
 
-std::optional<Impact> CollisionLog::impact(CollisionKind kind, const Integer& first,
-                                           const Integer& last) const {
+std::optional<Impact> PairLog::impact(CollisionKind kind, const Integer& first,
+                                      const Integer& last) const {
   std::optional<Impact> sum = blocks_impact(kind, first, last);
   if (sum) sum->position *= blocks().side;
   return sum;
 }
 
-std::optional<Impact> CollisionLog::blocks_impact(CollisionKind kind, const Integer& first,
-                                                  const Integer& last) const {
+std::optional<Impact> PairLog::blocks_impact(CollisionKind kind, const Integer& first,
+                                             const Integer& last) const {
   const Rational mass_ratio = blocks().blue.mass / blocks().red.mass;
   std::optional<Impact> sum;
   // Means are taken relative to the first collision: a product would lose the second double.
   double delay = 0;
   double shift = 0;
   for (Integer index = first; index <= last; ++index) {
-    const Collision collision = blocks_collision(index);
+    const PairCollision collision = blocks_collision(index);
     if (collision.kind != kind) continue;
     const double impulse = impulse_of(mass_ratio, collision);
     if (!sum) {
@@ -82,6 +140,25 @@ std::optional<Impact> CollisionLog::blocks_impact(CollisionKind kind, const Inte
     sum->position += shift;
   }
   return sum;
+}
+
+std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
+                                  const Integer& last) const {
+  std::optional<Impact> sum;
+  for (Integer index = first; index <= last; ++index) {
+    const Collision found = collision(index);
+    if ((kind == CollisionKind::wall) != is_at_wall(system(), found)) continue;
+    const bool is_first_fixed = !system().bodies[found.first].mass;
+    const Motion& seen = is_first_fixed ? found.second_after : found.first_after;
+    if (!sum) sum = Impact{kind, found.time, 0, seen.position[0]};
+    sum->impulse += impulse_of(system(), found);
+  }
+  return sum;
+}
+
+double impulse_unit(const Log& log) {
+  const double usual = log.pair() ? 0 : usual_impulse(log.system());
+  return usual > 0 ? usual : 1;
 }
 
 }  // namespace piblocks

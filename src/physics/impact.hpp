@@ -2,7 +2,7 @@
 // In: collisions first … last of a log. Out: one impact that stands for all of them.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <optional>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "physics/blocks.hpp"
+#include "physics/logs.hpp"
 
 namespace piblocks {
 namespace {
@@ -28,8 +28,8 @@ double position(const Real& gap, const Rational& offset) {
 
 }  // namespace
 
-InelasticLog::InelasticLog(const BodySystem& system)
-    : CollisionLog(system),
+InelasticLog::InelasticLog(const System& system)
+    : PairLog(system),
       motion_(blocks()),
       // Beside the velocity of blue that of red is as small as their mass ratio.
       velocity_bits_(kPosition_bits + std::labs(Real(64, motion_.ratio).exponent())),
@@ -38,10 +38,10 @@ InelasticLog::InelasticLog(const BodySystem& system)
   set_range(1, motion_.listed);
 }
 
-Motion InelasticLog::blue(const Real& gap, const Real& rate) const {
+BlockMotion InelasticLog::blue(const Real& gap, const Real& rate) const {
   return {position(gap, blue_offset_), rate.to_double()};
 }
-Motion InelasticLog::red(const Real& gap, const Real& rate) const {
+BlockMotion InelasticLog::red(const Real& gap, const Real& rate) const {
   return {position(gap, red_offset_), rate.to_double()};
 }
 
@@ -62,16 +62,16 @@ InelasticGaps InelasticLog::at_rest() const {
   return {zero, zero, zero, zero};
 }
 
-BlockState InelasticLog::blocks_at(const Rational& time) const {
+PairState InelasticLog::blocks_at(const Rational& time) const {
   const auto [count, now] = moved(time);
-  BlockState state{count, blue(now.y1, now.u1), red(now.y2, now.u2)};
+  PairState state{count, blue(now.y1, now.u1), red(now.y2, now.u2)};
   require_finite(to_time(time), state.blue, state.red, kName);
   return state;
 }
 
-Collision InelasticLog::blocks_collision(const Integer& index) const {
+PairCollision InelasticLog::blocks_collision(const Integer& index) const {
   const InelasticNumbers now = motion_.numbers(index, velocity_bits_ + 8);
-  Collision collision{
+  PairCollision collision{
       index, (now.reach / now.speed).to_double_double(), motion_.kind(index), {}, {}};
   const InelasticGaps after =
       motion_.is_end(index) ? at_rest() : motion_.gaps_after(index, now, velocity_bits_);
@@ -119,10 +119,10 @@ std::optional<Impact> InelasticLog::blocks_impact(CollisionKind kind, const Inte
 std::optional<PositionBounds> InelasticLog::bounds_at(const Rational& time) const {
   // Rounded once, from numbers of kPosition_bits and more.
   constexpr double kUnitRoundoff = 0x1p-53 * (1 + 0x1p-40);
-  const auto bound = [](const Motion& block, const Rational& offset) {
+  const auto bound = [](const BlockMotion& block, const Rational& offset) {
     return kUnitRoundoff * std::fabs(block.position) + 0x1p-150 * std::fabs(to_double(offset));
   };
-  const BlockState now = blocks_at(time);
+  const PairState now = blocks_at(time);
   return PositionBounds{bound(now.blue, blue_offset_), bound(now.red, red_offset_)};
 }
 

@@ -13,13 +13,13 @@ namespace piblocks {
 
 /// Before time 0 the blocks move as they do at time 0: what they lost in earlier collisions is not
 /// known. In a run of infinitely many collisions they rest at the wall from the last listed one on.
-class InelasticLog final : public CollisionLog {
+class InelasticLog final : public PairLog {
  public:
   /// @throws SimulationError as RoundPowers.
-  explicit InelasticLog(const BodySystem& system);
+  explicit InelasticLog(const System& system);
 
-  Collision blocks_collision(const Integer& index) const override;
-  BlockState blocks_at(const Rational& time) const override;
+  PairCollision blocks_collision(const Integer& index) const override;
+  PairState blocks_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
   Gaps gaps_at(const Rational& time) const override;
@@ -33,14 +33,14 @@ class InelasticLog final : public CollisionLog {
   std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const override;
   /// From collision to collision, or in slices of time if these are too many to be listed.
-  Exposure expose(const Rational& from, const Rational& to) const override;
+  PairExposure expose(const Rational& from, const Rational& to) const override;
 
  private:
   /// Count and gaps at a time.
   std::pair<Integer, InelasticGaps> moved(const Rational& time) const;
   InelasticGaps at_rest() const;
-  Motion blue(const Real& gap, const Real& rate) const;
-  Motion red(const Real& gap, const Real& rate) const;
+  BlockMotion blue(const Real& gap, const Real& rate) const;
+  BlockMotion red(const Real& gap, const Real& rate) const;
 
   InelasticMotion motion_;
   mpfr_prec_t velocity_bits_;  // what a velocity's difference may cancel, and a double's

@@ -3,8 +3,7 @@
 // beyond doubt, and the numbers of each. Notation: README.md, "Restitution".
 #pragma once
 
-#include <piblocks/restitution.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/restitution.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include "core/real.hpp"
 #include "physics/exact_motion.hpp"

@@ -1,23 +1,23 @@
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <memory>
 #include <optional>
 
-#include "physics/body_stepper.hpp"
 #include "physics/certified_line.hpp"
 #include "physics/exact_line.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks {
 namespace {
 
 /// Exact as long as its numbers are short and its steps not too many.
-class LineStepper final : public BodyStepper {
+class LineStepper final : public Stepper {
  public:
-  explicit LineStepper(const BodySystem& system) : exact_(std::in_place, system) {}
+  explicit LineStepper(const System& system) : exact_(std::in_place, system) {}
 
-  std::optional<BodyStep> step() override {
+  std::optional<SteppedCollision> step() override {
     if (certified_) return certified_->step();
-    std::optional<BodyStep> step = exact_->step();
+    std::optional<SteppedCollision> step = exact_->step();
     if (++steps_ >= kMaxExactCollisions || exact_->bits() > kMaxExactBits) {
       certified_.emplace(exact_->elements(), exact_->time());
       exact_.reset();
@@ -37,7 +37,7 @@ class LineStepper final : public BodyStepper {
 
 }  // namespace
 
-std::unique_ptr<BodyStepper> make_line_stepper(const BodySystem& system) {
+std::unique_ptr<Stepper> make_line_stepper(const System& system) {
   return std::make_unique<LineStepper>(system);
 }
 

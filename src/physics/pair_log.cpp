@@ -1,75 +1,26 @@
-#include <piblocks/run.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <utility>
 
-#include "physics/body_logs.hpp"
-#include "physics/exact_line.hpp"
-#include "physics/exact_motion.hpp"
+#include "physics/inelastic_log.hpp"
+#include "physics/logs.hpp"
+#include "physics/problems.hpp"
+#include "physics/unfolded_log.hpp"
 
 namespace piblocks {
-namespace {
-
-Block block_of(const LineElement& element, int side) {
-  return {*element.mass, side * element.position, side * element.velocity, 2 * element.half_width};
-}
-
-TwoBlocks two_blocks_from(const BodySystem& system, const LineElement& wall,
-                          const LineElement& blue, const LineElement& red, int side) {
-  return {.wall_face = side * wall.position + wall.half_width,
-          .blue = block_of(blue, side),
-          .red = block_of(red, side),
-          .blocks_restitution = system.restitution,
-          .wall_restitution = system.wall_restitution,
-          .blue_id = blue.id,
-          .red_id = red.id,
-          .wall_id = wall.id,
-          .side = side};
-}
-
-}  // namespace
-
-std::optional<TwoBlocks> two_blocks_of(const BodySystem& system) {
-  if (system.dimensions != 1 || system.bodies.size() > 3) return std::nullopt;
-  const std::vector<LineElement> elements = elements_of(system);
-  if (elements.size() != 3 || !elements[1].mass) return std::nullopt;
-  const LineElement& left = elements[0];
-  const LineElement& middle = elements[1];
-  const LineElement& right = elements[2];
-  if (!left.mass && right.mass) return two_blocks_from(system, left, middle, right, 1);
-  if (!right.mass && left.mass) return two_blocks_from(system, right, middle, left, -1);
-  return std::nullopt;
-}
-
-BodySystem system_of(const TwoBlocks& blocks) {
-  const auto body_of = [](const Block& block, const char* name) {
-    return Body{block.mass, {block.position}, {block.velocity}, block.width, name};
-  };
-  return {1,
-          {body_of(blocks.blue, "blue"), body_of(blocks.red, "red")},
-          {{"wall", {blocks.wall_face}, {1}}},
-          blocks.blocks_restitution,
-          blocks.wall_restitution};
-}
-
-bool has_short_names(const BodySystem& system) {
-  const auto& [dimensions, bodies, walls, restitution, wall_restitution] = system;
-  return bodies.size() == 2 && walls.size() == 1 && bodies[0].name == "blue" &&
-         bodies[1].name == "red" && walls[0].name == "wall";
-}
-
-BodyCollision CollisionLog::collision(const Integer& index) const {
-  const Collision found = blocks_collision(index);
+Collision PairLog::collision(const Integer& index) const {
+  const PairCollision found = blocks_collision(index);
   const bool is_at_wall = found.kind == CollisionKind::wall;
   const std::uint32_t blue = blocks_.blue_id;
   const std::uint32_t other = is_at_wall ? blocks_.wall_id : blocks_.red_id;
-  BodyCollision collision{
-      index,
-      found.time,
-      blue,
-      other,
-      body_motion_of(found.blue),
-      is_at_wall ? motion_at_start(system(), other) : body_motion_of(found.red)};
+  Collision collision{index,
+                      found.time,
+                      blue,
+                      other,
+                      body_motion_of(found.blue),
+                      is_at_wall ? motion_at_start(system(), other) : body_motion_of(found.red)};
   if (other < blue) {
     std::swap(collision.first, collision.second);
     std::swap(collision.first_after, collision.second_after);
@@ -77,15 +28,15 @@ BodyCollision CollisionLog::collision(const Integer& index) const {
   return collision;
 }
 
-BodiesState CollisionLog::state_at(const Rational& time) const {
-  const BlockState now = blocks_at(time);
-  BodiesState state{now.count, motions_at_start(system())};
+State PairLog::state_at(const Rational& time) const {
+  const PairState now = blocks_at(time);
+  State state{now.count, motions_at_start(system())};
   state.bodies[blocks_.blue_id] = body_motion_of(now.blue);
   state.bodies[blocks_.red_id] = body_motion_of(now.red);
   return state;
 }
 
-Integer CollisionLog::first_since(const Rational& time) const {
+Integer PairLog::first_since(const Rational& time) const {
   const Integer last = count_at(time);
   if (last < first_index()) return first_index();
   // Collisions happen together only in the corner, and there all of them do.
@@ -94,19 +45,19 @@ Integer CollisionLog::first_since(const Rational& time) const {
   return collision_time(last) == to_time(time) ? last : Integer(last + 1);
 }
 
-std::vector<std::vector<PathPoint>> CollisionLog::paths(const Rational& from, const Rational& to,
-                                                        std::size_t most) const {
+std::vector<std::vector<PathPoint>> PairLog::paths(const Rational& from, const Rational& to,
+                                                   std::size_t most) const {
   const std::size_t blue = blocks_.blue_id;
   const std::size_t red = blocks_.red_id;
   std::vector<std::vector<PathPoint>> paths(system().bodies.size());
   const auto add = [&](double after, const Rational& time) {
-    const BodiesState state = state_at(time);
+    const State state = state_at(time);
     for (const std::size_t body : {blue, red}) {
       paths[body].push_back({after, state.bodies[body].position});
     }
   };
   const auto add_collision = [&](const Integer& index) {
-    const BodyCollision found = collision(index);
+    const Collision found = collision(index);
     const double after = to_double(to_rational(found.time) - from);
     for (const std::size_t body : {blue, red}) {
       if (found.first == body) paths[body].push_back({after, found.first_after.position});
@@ -133,18 +84,18 @@ std::vector<std::vector<PathPoint>> CollisionLog::paths(const Rational& from, co
   return paths;
 }
 
-std::optional<Integer> CollisionLog::first_tie(const Integer& last) const {
+std::optional<Integer> PairLog::first_tie(const Integer& last) const {
   return last >= 1 && corner_of(blocks()) ? std::optional(Integer(1)) : std::nullopt;
 }
 
-std::optional<PositionBounds> CollisionLog::bounds_at(const Rational& /*time*/) const {
+std::optional<PositionBounds> PairLog::bounds_at(const Rational& /*time*/) const {
   return std::nullopt;
 }
 
 namespace {
 
 /// Rounding may have carried a stepping engine past a contact.
-Gaps gaps_between(const TwoBlocks& system, const Motion& blue, const Motion& red) {
+Gaps gaps_between(const TwoBlocks& system, const BlockMotion& blue, const BlockMotion& red) {
   const Rational blue_width = system.blue.width;
   const double y1 = blue.position - to_double(system.wall_face + blue_width / 2);
   const double y2 = red.position - to_double(system.wall_face + blue_width + system.red.width / 2);
@@ -152,15 +103,15 @@ Gaps gaps_between(const TwoBlocks& system, const Motion& blue, const Motion& red
 }
 
 /// Asks the log for one collision after the other.
-class IndexedStream final : public CollisionStream {
+class IndexedStream final : public PairStream {
  public:
-  IndexedStream(const CollisionLog& log, Integer first, Integer last)
+  IndexedStream(const PairLog& log, Integer first, Integer last)
       : log_(log), next_(std::move(first)), last_(std::move(last)) {}
 
-  bool read(CollisionBatch& batch) override {
+  bool read(PairBatch& batch) override {
     batch.first = next_;
-    for (batch.size = 0; batch.size < CollisionBatch::kCapacity && next_ <= last_; ++batch.size) {
-      const Collision c = log_.blocks_collision(next_);
+    for (batch.size = 0; batch.size < PairBatch::kCapacity && next_ <= last_; ++batch.size) {
+      const PairCollision c = log_.blocks_collision(next_);
       batch.kind[batch.size] = c.kind;
       batch.time_hi[batch.size] = c.time.hi;
       batch.time_lo[batch.size] = c.time.lo;
@@ -174,27 +125,47 @@ class IndexedStream final : public CollisionStream {
   }
 
  private:
-  const CollisionLog& log_;
+  const PairLog& log_;
   Integer next_;
   Integer last_;
 };
 
 }  // namespace
 
-Gaps CollisionLog::gaps_at(const Rational& time) const {
-  const BlockState now = blocks_at(time);
+Gaps PairLog::gaps_at(const Rational& time) const {
+  const PairState now = blocks_at(time);
   return gaps_between(blocks(), now.blue, now.red);
 }
 
-Gaps CollisionLog::gaps_at_collision(const Integer& index) const {
-  const Collision now = blocks_collision(index);
+Gaps PairLog::gaps_at_collision(const Integer& index) const {
+  const PairCollision now = blocks_collision(index);
   const Gaps gaps = gaps_between(blocks(), now.blue, now.red);
   return now.kind == CollisionKind::wall ? Gaps{0, gaps.y2} : Gaps{gaps.y2, gaps.y2};
 }
 
-std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,
-                                                      const Integer& last) const {
+std::unique_ptr<PairStream> PairLog::stream(const Integer& first, const Integer& last) const {
   return std::make_unique<IndexedStream>(*this, first, last);
+}
+
+std::unique_ptr<PairLog> make_valid_pair_log(const System& system, Engine engine) {
+  if (engine == Engine::events) return make_event_log(system);
+  if (!is_elastic(system)) return std::make_unique<InelasticLog>(system);
+  // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
+  // in the rounding of its phase.
+  const TwoBlocks blocks = two_blocks_of(system).value();
+  const bool is_at_rest = blocks.blue.velocity == 0 && blocks.red.velocity == 0;
+  if (blocks.red.mass <= blocks.blue.mass || is_at_rest) return make_exact_log(system);
+  return std::make_unique<UnfoldedLog>(system);
+}
+
+std::unique_ptr<PairLog> make_pair_log(const System& system, Engine engine) {
+  require_valid(problems_of(system));
+  if (two_blocks_of(system)) return make_valid_pair_log(system, engine);
+  throw UsageError("log: needs two blocks beside one wall or fixed block, and no more");
+}
+
+std::unique_ptr<PairLog> make_pair_log(const TwoBlocks& system, Engine engine) {
+  return make_pair_log(system_of(system), engine);
 }
 
 }  // namespace piblocks

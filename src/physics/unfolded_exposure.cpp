@@ -183,7 +183,8 @@ class Bounces {
 
 }  // namespace
 
-Exposure expose_bounces(const ClosedForm& form, const IntervalEnd& begin, const IntervalEnd& end) {
+PairExposure expose_bounces(const ClosedForm& form, const IntervalEnd& begin,
+                            const IntervalEnd& end) {
   const auto bounces = std::make_shared<const Bounces>(form, begin, end);
   return {.pieces = bounces->pieces(begin, end),
           .blue_range = bounces->range(BlockName::blue),

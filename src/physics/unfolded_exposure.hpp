@@ -73,6 +73,7 @@ struct IntervalEnd {
 };
 
 /// @param begin, end   with many rays between them.
-Exposure expose_bounces(const ClosedForm& form, const IntervalEnd& begin, const IntervalEnd& end);
+PairExposure expose_bounces(const ClosedForm& form, const IntervalEnd& begin,
+                            const IntervalEnd& end);
 
 }  // namespace piblocks

@@ -9,7 +9,8 @@
 
 #include "core/rounded.hpp"
 #include "core/two_sum.hpp"
-#include "physics/blocks.hpp"
+#include "physics/block_motion.hpp"
+#include "physics/logs.hpp"
 
 namespace piblocks {
 namespace {
@@ -43,8 +44,8 @@ ExactMotion checked(const TwoBlocks& system) {
 
 }  // namespace
 
-UnfoldedLog::UnfoldedLog(const BodySystem& system)
-    : CollisionLog(system), exact_(checked(blocks())), form_(blocks(), exact_) {
+UnfoldedLog::UnfoldedLog(const System& system)
+    : PairLog(system), exact_(checked(blocks())), form_(blocks(), exact_) {
   set_range(form_.first_index, form_.size);
   const bool touches = exact_.y1 == 0 || exact_.y1 == exact_.y2;
   if (touches && !exact_.through_corner()) contact_ = blocks_at(0).count;
@@ -117,14 +118,14 @@ Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const 
   return {*point.ray + Integer(whole), point.phase - whole};
 }
 
-BlockState UnfoldedLog::blocks_at(const Rational& time) const {
+PairState UnfoldedLog::blocks_at(const Rational& time) const {
   const LinePoint point = point_at(time);
   return state_of(point, phase_of(point, time), time);
 }
 
-BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
-                                 const Rational& time) const {
-  const auto finite = [&](const BlockState& state) {
+PairState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
+                                const Rational& time) const {
+  const auto finite = [&](const PairState& state) {
     require_finite(point.time, state.blue, state.red, "closed form");
     return state;
   };
@@ -169,7 +170,7 @@ Time UnfoldedLog::time(const Integer& from, const Integer& to, const RayView& vi
   return {form_.time_from_start(-start.sign, from_start, view.ray), 0};
 }
 
-Collision UnfoldedLog::blocks_collision(const Integer& index) const {
+PairCollision UnfoldedLog::blocks_collision(const Integer& index) const {
   const Integer ray = ray_of(index);
   const bool odd = is_odd(ray);
   const RayView seen = view_of(ray, ray);
@@ -180,11 +181,11 @@ Collision UnfoldedLog::blocks_collision(const Integer& index) const {
   const Time crossed = time(ray, ray, seen);
   // Only rounding can carry a collision past time 0.
   const bool is_wrong = index > 0 ? crossed.hi < 0 : crossed.hi > 0;
-  Collision collision{index,
-                      is_wrong || contact_ == index ? Time{} : crossed,
-                      odd ? CollisionKind::blocks : CollisionKind::wall,
-                      {now.blue_position, now.blue_velocity},
-                      {now.red_position, now.red_velocity}};
+  PairCollision collision{index,
+                          is_wrong || contact_ == index ? Time{} : crossed,
+                          odd ? CollisionKind::blocks : CollisionKind::wall,
+                          {now.blue_position, now.blue_velocity},
+                          {now.red_position, now.red_velocity}};
   require_finite(collision.time, collision.blue, collision.red, "closed form");
   return collision;
 }
@@ -195,8 +196,7 @@ Rational UnfoldedLog::time_after(const Integer& index) const {
   return exact_.closest_approach;
 }
 
-std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
-                                                     const Integer& last) const {
+std::unique_ptr<PairStream> UnfoldedLog::stream(const Integer& first, const Integer& last) const {
   // Times and distances are greatest at the ends of a range. If a double can hold those, it can
   // hold all between.
   if (first <= last) {

@@ -13,16 +13,16 @@
 namespace piblocks {
 
 /// Doubles are enough for positions at any number of digits (README.md, "Why doubles are enough").
-class UnfoldedLog final : public CollisionLog {
+class UnfoldedLog final : public PairLog {
  public:
   /// @throws UsageError if the mass ratio is beyond 2^2000.
   /// @throws SimulationError if the blocks pass the corner closer than a double can tell.
-  explicit UnfoldedLog(const BodySystem& system);
+  explicit UnfoldedLog(const System& system);
 
-  Collision blocks_collision(const Integer& index) const override;
-  BlockState blocks_at(const Rational& time) const override;
+  PairCollision blocks_collision(const Integer& index) const override;
+  PairState blocks_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
-  std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
+  std::unique_ptr<PairStream> stream(const Integer& first, const Integer& last) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
   Gaps gaps_at(const Rational& time) const override;
   Gaps gaps_at_collision(const Integer& index) const override;
@@ -32,7 +32,7 @@ class UnfoldedLog final : public CollisionLog {
                                       const Integer& last) const override;
   Integer count_near(const Time& time) const override;
   /// As in exposure.hpp, for first <= last.
-  Exposure expose(const Rational& first, const Rational& last) const override;
+  PairExposure expose(const Rational& first, const Rational& last) const override;
 
  private:
   /// A point on the line, seen from the nearer end of time.
@@ -59,8 +59,8 @@ class UnfoldedLog final : public CollisionLog {
   }
   /// Computed exactly if the phase of the point is not decided.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
-  BlockState state_of(const LinePoint& point, const Phase& at, const Rational& time) const;
-  Exposure expose_corner(const Rational& begin, const Rational& end) const;
+  PairState state_of(const LinePoint& point, const Phase& at, const Rational& time) const;
+  PairExposure expose_corner(const Rational& begin, const Rational& end) const;
   /// A ray as seen from the nearer end of time.
   struct RayView {
     const Landmark* end = nullptr;

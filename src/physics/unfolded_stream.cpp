@@ -58,7 +58,7 @@ struct TurnedRows {
 };
 
 struct BatchRows {
-  CollisionBatch& batch;
+  PairBatch& batch;
   std::size_t begin;
   std::size_t count;
 };
@@ -118,7 +118,7 @@ Direction direction_after(const ClosedForm& form, const Landmark& landmark,
 
 /// The kinds of consecutive rays from an even one on.
 constexpr auto kKinds = []() {
-  std::array<CollisionKind, CollisionBatch::kCapacity + 1> kinds{};
+  std::array<CollisionKind, PairBatch::kCapacity + 1> kinds{};
   for (std::size_t i = 1; i < kinds.size(); i += 2) kinds[i] = CollisionKind::blocks;
   return kinds;
 }();
@@ -127,7 +127,7 @@ constexpr auto kKinds = []() {
 /// of the other rays are sums of two positive ones, so nothing cancels (README.md, "Collisions, one
 /// or all"). Every ray costs two rotations, two divisions and some thirty multiplications and
 /// additions without branches, so that the compiler makes vectors of them.
-class UnfoldedStream final : public CollisionStream {
+class UnfoldedStream final : public PairStream {
  public:
   UnfoldedStream(const Unfolding& form, RaySpan rays, std::optional<Integer> contact)
       : form_(form),
@@ -138,8 +138,8 @@ class UnfoldedStream final : public CollisionStream {
         last_by_past_(floor_mean(form.past.ray, form.turn.ahead.ray)),
         last_by_turn_(floor_mean(form.turn.ahead.ray, form.future.ray)) {}
 
-  bool read(CollisionBatch& batch) override {
-    Integer left = std::min<Integer>(last_ - next_ + 1, long(CollisionBatch::kCapacity));
+  bool read(PairBatch& batch) override {
+    Integer left = std::min<Integer>(last_ - next_ + 1, long(PairBatch::kCapacity));
     if (index_ <= 0) left = std::min<Integer>(left, 1 - index_);  // on one side of time 0
     batch.first = index_;
     batch.size = left > 0 ? left.get_ui() : 0;
@@ -182,7 +182,7 @@ class UnfoldedStream final : public CollisionStream {
   }
 
   /// Rows begin … begin + rows - 1 of the batch: rays of the stretch from next_ + begin on.
-  void fill(std::size_t begin, std::size_t rows, CollisionBatch& batch) {
+  void fill(std::size_t begin, std::size_t rows, PairBatch& batch) {
     const ClosedForm& form = form_;
     const int end_sign = stretch_.end_sign;
     const Landmark& landmark = *stretch_.landmark;
@@ -222,7 +222,7 @@ class UnfoldedStream final : public CollisionStream {
   }
 
   /// Only rounding can carry a collision past time 0. All rows are on one side of it.
-  void keep_within(CollisionBatch& batch) const {
+  void keep_within(PairBatch& batch) const {
     const double side = batch.first > 0 ? 1 : -1;
     for (std::size_t row = 0; row < batch.size; ++row) {
       const bool is_wrong = side * batch.time_hi[row] < 0;
@@ -249,8 +249,8 @@ class UnfoldedStream final : public CollisionStream {
 
 }  // namespace
 
-std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const RaySpan& rays,
-                                                      const std::optional<Integer>& contact) {
+std::unique_ptr<PairStream> make_unfolded_stream(const Unfolding& form, const RaySpan& rays,
+                                                 const std::optional<Integer>& contact) {
   return std::make_unique<UnfoldedStream>(form, rays, contact);
 }
 

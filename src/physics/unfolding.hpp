@@ -146,7 +146,7 @@ struct Unfolding : ClosedForm {
     return near_start != NearStart::none && (ray <= half_way) == (near_start == NearStart::until);
   }
   const Landmark& end_near(bool late) const { return late ? future : past; }
-  Integer first_index;  ///< as CollisionLog has them
+  Integer first_index;  ///< as PairLog has them
   Integer size;
   Landmark past;
   Landmark future;
@@ -166,7 +166,7 @@ struct RaySpan {
 
 /// The closed form as a bulk producer.
 /// @param contact  index of the collision that happens exactly at time 0, if one does.
-std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const RaySpan& rays,
-                                                      const std::optional<Integer>& contact);
+std::unique_ptr<PairStream> make_unfolded_stream(const Unfolding& form, const RaySpan& rays,
+                                                 const std::optional<Integer>& contact);
 
 }  // namespace piblocks

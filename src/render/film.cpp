@@ -12,7 +12,7 @@
 #include "core/stop.hpp"
 #include "draw/montage.hpp"
 #include "media/png/png_reader.hpp"
-#include "physics/blocks.hpp"
+#include "physics/problems.hpp"
 #include "scene/pacing.hpp"
 
 namespace piblocks {

@@ -4,9 +4,9 @@
 
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cstdint>
 #include <functional>

@@ -30,33 +30,33 @@ void check_buffer(const View& view, std::size_t size_bytes, std::ptrdiff_t strid
 
 }  // namespace
 
-struct FrameRenderer::State {
-  explicit State(const Script& script)
+struct FrameRenderer::Impl {
+  explicit Impl(const Script& script)
       : film(script), canvas(film.view().width_px, film.view().height_px, film.view().background) {}
 
   Film film;
   Canvas canvas;
 };
 
-FrameRenderer::FrameRenderer(const Script& script) : state_(std::make_unique<State>(script)) {}
+FrameRenderer::FrameRenderer(const Script& script) : impl_(std::make_unique<Impl>(script)) {}
 FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 FrameRenderer& FrameRenderer::operator=(FrameRenderer&&) noexcept = default;
 
-std::int64_t FrameRenderer::frame_count() const noexcept { return state_->film.frame_count(); }
+std::int64_t FrameRenderer::frame_count() const noexcept { return impl_->film.frame_count(); }
 
 ImageView FrameRenderer::frame(std::int64_t number) {
   if (number < 0 || number >= frame_count()) {
     throw UsageError(
         fmt::format("frame: there is no number {}; use 0 to {}", number, frame_count() - 1));
   }
-  state_->canvas.update(state_->film.frame(number));
-  return state_->canvas.view();
+  impl_->canvas.update(impl_->film.frame(number));
+  return impl_->canvas.view();
 }
 
 void FrameRenderer::copy_frame(std::int64_t number, std::span<std::uint8_t> buffer,
                                std::ptrdiff_t stride_bytes) {
-  check_buffer(state_->film.view(), buffer.size(), stride_bytes);
+  check_buffer(impl_->film.view(), buffer.size(), stride_bytes);
   const ImageView image = frame(number);
   std::uint8_t* to = buffer.data();
   for (int y = 0; y < image.height_px; ++y) {

@@ -57,7 +57,7 @@ std::vector<Passage> passages(const Log& log, const VideoTime& video_time, Integ
 }
 
 /// As exact as its age needs it: where time all but stands still, a double-double is too coarse.
-Rational time_of(const Log& log, const BodyCollision& collision, const Stretch& stretch) {
+Rational time_of(const Log& log, const Collision& collision, const Stretch& stretch) {
   constexpr unsigned long kUsed_bits = 90;  // of the 104 that are right
   Rational rounded = to_rational(collision.time);
   if (abs(stretch.speed) * power(2, kUsed_bits) >= abs(rounded)) return rounded;
@@ -69,7 +69,7 @@ Rational time_of(const Log& log, const BodyCollision& collision, const Stretch& 
 }
 
 struct AgedCollision {
-  BodyCollision collision;
+  Collision collision;
   double age_s;
 };
 
@@ -91,7 +91,7 @@ std::vector<AgedCollision> newest(const Log& log, const std::vector<Passage>& pa
                                   const Rational& video_s) {
   std::vector<AgedCollision> found;
   each_passed(passages, [&](const Integer& index, const Stretch& stretch) {
-    BodyCollision collision = log.collision(index);
+    Collision collision = log.collision(index);
     const Rational way_s = (time_of(log, collision, stretch) - stretch.time) / stretch.speed;
     const double age_s = to_double(video_s - stretch.video_s - way_s);
     // Only rounding can make a hit later than the moment.
@@ -109,7 +109,7 @@ double rate_of(const std::vector<AgedCollision>& three) {
 }
 
 /// Where the surfaces of those that have just met touch.
-std::array<double, 2> contact_of(const BodySystem& system, const BodyCollision& collision) {
+std::array<double, 2> contact_of(const System& system, const Collision& collision) {
   const std::array<double, 2>& from = collision.first_after.position;
   const Rational& size = system.bodies[collision.first].size;
   const bool is_line = system.dimensions == 1;
@@ -128,8 +128,8 @@ std::array<double, 2> contact_of(const BodySystem& system, const BodyCollision& 
 }
 
 Hit hit_of(const Log& log, const AgedCollision& aged) {
-  const BodyCollision& collision = aged.collision;
-  const CollisionLog* const blocks = log.pair();
+  const Collision& collision = aged.collision;
+  const PairLog* const blocks = log.pair();
   return {collision.index,
           {collision.first, collision.second},
           contact_of(log.system(), collision),
@@ -147,7 +147,7 @@ std::vector<MetPair> pairs_of(const Log& log, const std::vector<Passage>& passag
   std::vector<MetPair> pairs;
   std::size_t count = 0;  // of collisions
   each_passed(passages, [&](const Integer& index, const Stretch& /*stretch*/) {
-    const BodyCollision collision = log.collision(index);
+    const Collision collision = log.collision(index);
     const MetPair pair{collision.first, collision.second};
     if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
     return ++count < most && count < passed;

@@ -1,7 +1,7 @@
 #include "render/sheet_captions.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -13,7 +13,7 @@
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "draw/montage.hpp"
-#include "physics/blocks.hpp"
+#include "physics/problems.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
 #include "render/sheet_captions.hpp"

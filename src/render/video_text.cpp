@@ -1,8 +1,7 @@
 #include "render/video_text.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/restitution.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -55,13 +54,13 @@ std::string collision_words(const TwoBlocks& system) {
 }
 
 /// "3 blocks", "200 discs"
-std::string bodies_of(const BodySystem& system) {
+std::string bodies_of(const System& system) {
   const std::size_t count = system.bodies.size();
   const char* const name = system.dimensions == 1 ? "block" : "disc";
   return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
 }
 
-std::string describe_bodies(const BodySystem& system, const VideoCount& count) {
+std::string describe_bodies(const System& system, const VideoCount& count) {
   const std::size_t walls = system.walls.size();
   const std::string place =
       walls == 0 ? std::string() : fmt::format(", with {} wall{}", walls, walls == 1 ? "" : "s");

@@ -249,7 +249,7 @@ std::size_t number_in(std::string_view text, std::string_view beginning) {
   return number;
 }
 
-void show_all(const BodySystem& system, View& view) {
+void show_all(const System& system, View& view) {
   for (const std::size_t axis : {0U, 1U}) {
     std::optional<Rational> low;
     std::optional<Rational> high;
@@ -275,7 +275,7 @@ void show_all(const BodySystem& system, View& view) {
 }
 
 std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& scene) {
-  const BodySystem& system = scene.system;
+  const System& system = scene.system;
   std::vector<std::pair<std::string, std::string>> lines;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const Body& body = system.bodies[i];

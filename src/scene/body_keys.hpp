@@ -65,7 +65,7 @@ class BodyDraft {
 std::size_t number_in(std::string_view text, std::string_view beginning);
 
 /// The least range of both axes that shows the box, or the bodies at time 0, with a margin.
-void show_all(const BodySystem& system, View& view);
+void show_all(const System& system, View& view);
 
 /// The bodies and walls as exact text, in the order of describe().
 std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& scene);

@@ -1,7 +1,7 @@
 #include "scene/counted_pi.hpp"
 
 #include <piblocks/exact.hpp>
-#include <piblocks/restitution.hpp>
+#include <piblocks/two_blocks.hpp>
 
 namespace piblocks {
 

@@ -2,7 +2,7 @@
 // In: two blocks beside a wall, and a base. Out: digits, if the count is made of them.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <optional>
 #include <string>

@@ -78,7 +78,7 @@ std::optional<Middle> middle_of_bodies(const Log& log, const Span& span, const R
   return Middle{(from + to) / 2, shortest > 0 ? rate : HUGE_VAL};
 }
 
-std::optional<Middle> middle_of_blocks(const CollisionLog& log, const Rational& speed) {
+std::optional<Middle> middle_of_blocks(const PairLog& log, const Rational& speed) {
   const TwoBlocks& system = log.blocks();
   if (!is_elastic(system)) {
     const auto densest = InelasticMotion(system).densest();

@@ -2,8 +2,8 @@
 // In: a scene, its log, the span that is shown. Out: moves in order, without gaps.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <vector>
 

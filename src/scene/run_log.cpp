@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/restitution.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 
@@ -81,7 +81,7 @@ std::string listed_collisions(const Log& log, const char* mark) {
       mark, readable(log.last()));
 }
 
-void require_blocks(const BodySystem& system, const char* what) {
+void require_blocks(const System& system, const char* what) {
   if (has_short_names(system)) return;
   throw UsageError(fmt::format(
       "{}: needs two blocks and a fixed wall; leave it out, or leave out [[body]] and wall.mass",

@@ -1,9 +1,9 @@
 // The run of a scene. In: a scene without problems. Out: its log; notes and errors about it.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <memory>
 #include <optional>
@@ -43,6 +43,6 @@ std::string listed_collisions(const Log& log, const char* mark);
 
 /// @param what  in the message: an option
 /// @throws UsageError unless the bodies are blue, red and a wall.
-void require_blocks(const BodySystem& system, const char* what);
+void require_blocks(const System& system, const char* what);
 
 }  // namespace piblocks

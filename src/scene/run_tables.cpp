@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 using Kind = TableLayout::Kind;
 using Use = std::function<void(const TableRows&)>;
 
-constexpr std::size_t kRowsAtOnce = CollisionBatch::kCapacity;
+constexpr std::size_t kRowsAtOnce = PairBatch::kCapacity;
 
 /// @param shape  of an array, after a comma
 void add_type(TableLayout& layout, const std::string& name, const char* type,
@@ -38,7 +38,7 @@ void add_column(TableLayout& layout, const std::string& name, Kind kind, const c
 
 /// Adds all positions, then all velocities. On a line these are "x_1", … "v_1", …; in a plane they
 /// have the coordinates "x_1", "y_1", … "vx_1", "vy_1", ….
-void add_motions(TableLayout& layout, const BodySystem& system,
+void add_motions(TableLayout& layout, const System& system,
                  const std::vector<std::string>& bodies) {
   const bool is_plane = system.dimensions == 2;
   for (const char* const vector : {"x", "v"}) {
@@ -60,7 +60,7 @@ void add_motions(TableLayout& layout, const BodySystem& system,
 
 /// The position and the velocity of a body in JSON.
 /// @param bound  between them
-std::string motion_text(const BodySystem& system, const std::string& body,
+std::string motion_text(const System& system, const std::string& body,
                         const std::string& bound = {}) {
   return system.dimensions == 2
              ? fmt::format(R"({{"position":[<x_{0}>,<y_{0}>],"velocity":[<vx_{0}>,<vy_{0}>]}})",
@@ -76,7 +76,7 @@ std::string bytes_of(std::int32_t value) {
 }
 
 /// The numbers of the bodies, and the names of the walls.
-std::vector<TableLayout::Word> words_of(const BodySystem& system) {
+std::vector<TableLayout::Word> words_of(const System& system) {
   std::vector<TableLayout::Word> words;
   for (std::int32_t body = 1; body <= std::int32_t(system.bodies.size()); ++body) {
     const std::string text = std::to_string(body);
@@ -89,7 +89,7 @@ std::vector<TableLayout::Word> words_of(const BodySystem& system) {
 }
 
 /// @param words  columns of words. @param type  of these in NumPy
-TableLayout collision_layout(const BodySystem& system, const std::vector<std::string>& words,
+TableLayout collision_layout(const System& system, const std::vector<std::string>& words,
                              const char* type, const std::vector<std::string>& bodies) {
   TableLayout layout;
   add_column(layout, "index", Kind::index, "<i8");
@@ -105,7 +105,7 @@ TableLayout collision_layout(const BodySystem& system, const std::vector<std::st
   return layout;
 }
 
-void add_blue_and_red(TableLayout& layout, const BodySystem& system, bool has_bounds) {
+void add_blue_and_red(TableLayout& layout, const System& system, bool has_bounds) {
   add_motions(layout, system, {"blue", "red"});
   const auto motion = [&](const std::string& body) {
     if (!has_bounds) return motion_text(system, body);
@@ -117,7 +117,7 @@ void add_blue_and_red(TableLayout& layout, const BodySystem& system, bool has_bo
   layout.json += fmt::format(R"("red":{})", motion("red"));
 }
 
-void add_bodies(TableLayout& layout, const BodySystem& system) {
+void add_bodies(TableLayout& layout, const System& system) {
   std::vector<std::string> bodies;
   std::vector<std::string> motions;
   for (std::size_t body = 1; body <= system.bodies.size(); ++body) {
@@ -133,8 +133,8 @@ void add_bodies(TableLayout& layout, const BodySystem& system) {
   layout.json += fmt::format(R"("bodies":[{}])", fmt::join(motions, ","));
 }
 
-void read_pair(const CollisionLog& log, const Integer& first, const Integer& last, const Use& use) {
-  CollisionBatch batch{};
+void read_pair(const PairLog& log, const Integer& first, const Integer& last, const Use& use) {
+  PairBatch batch{};
   std::array<std::uint32_t, kRowsAtOnce> kinds{};
   TableRows rows;
   rows.columns = {nullptr,
@@ -161,7 +161,7 @@ void read_bodies(const Log& log, const Integer& first, const Integer& last, cons
   rows.columns = {nullptr, numbers[0].data(), numbers[1].data(), bodies[0].data(),
                   bodies[1].data()};
   for (std::size_t i = 2; i < numbers.size(); ++i) rows.columns.push_back(numbers[i].data());
-  const auto add = [&](const BodyCollision& c) {
+  const auto add = [&](const Collision& c) {
     bodies[0].at(rows.size) = c.first;
     bodies[1].at(rows.size) = c.second;
     auto column = numbers.begin();
@@ -183,7 +183,7 @@ void read_bodies(const Log& log, const Integer& first, const Integer& last, cons
 
 }  // namespace
 
-Table collision_table(const BodySystem& system) {
+Table collision_table(const System& system) {
   using namespace std::string_literals;
   if (has_short_names(system)) {
     TableLayout layout = collision_layout(system, {"kind"}, "|S6", {"blue", "red"});
@@ -207,7 +207,7 @@ void read_collisions(const Log& log, const Integer& first, const Integer& last, 
   read_bodies(log, first, last, use);
 }
 
-Table state_table(const BodySystem& system, bool has_bounds) {
+Table state_table(const System& system, bool has_bounds) {
   if (has_bounds) require_blocks(system, "--bounds");
   TableLayout layout;
   add_column(layout, "time", Kind::number, "<f8");
@@ -220,13 +220,13 @@ Table state_table(const BodySystem& system, bool has_bounds) {
 }
 
 StateRow state_row(const Log& log, const Rational& time, bool has_bounds) {
-  const BodiesState state = log.state_at(time);
+  const State state = log.state_at(time);
   const auto axes = std::ptrdiff_t{log.system().dimensions};
   StateRow row{state.count, state.count == infinite_count(log)};
   row.numbers.reserve(3 + 2 * state.bodies.size() * std::size_t(axes));
   row.numbers.push_back(to_double(time));
-  for (const auto part : {&BodyMotion::position, &BodyMotion::velocity}) {
-    for (const BodyMotion& body : state.bodies) {
+  for (const auto part : {&Motion::position, &Motion::velocity}) {
+    for (const Motion& body : state.bodies) {
       const auto& vector = body.*part;
       row.numbers.insert(row.numbers.end(), vector.begin(), vector.begin() + axes);
     }

@@ -13,8 +13,8 @@
 
 namespace piblocks {
 
-/// The table of collisions. In NumPy a wall is -1, -2, … in the order of BodySystem::walls.
-Table collision_table(const BodySystem& system);
+/// The table of collisions. In NumPy a wall is -1, -2, … in the order of System::walls.
+Table collision_table(const System& system);
 
 /// Calls `use` with rows of that table, some at a time: collisions first … last; none if
 /// last < first. @throws as Log::collision()
@@ -24,7 +24,7 @@ void read_collisions(const Log& log, const Integer& first, const Integer& last,
 /// The table of states; it has no CSV.
 /// @param has_bounds  whether it has, of each position, how far it may be from the truth
 /// @throws UsageError if it is to have bounds, and the system is not blue, red and a wall.
-Table state_table(const BodySystem& system, bool has_bounds);
+Table state_table(const System& system, bool has_bounds);
 
 /// A row of the table of states.
 struct StateRow {

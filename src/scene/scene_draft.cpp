@@ -198,7 +198,7 @@ void SceneDraft::set_shutter(View& view) const {
 /// A wall of finite mass is a block.
 void SceneDraft::set_recoiling_wall(Scene& scene) const {
   constexpr int kColor = 140;  // between light and dark
-  BodySystem& system = scene.system;
+  System& system = scene.system;
   const Rational face = system.walls[0].point[0];
   system.walls.clear();
   system.bodies.push_back(

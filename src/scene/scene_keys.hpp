@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/blocks.hpp"
+#include "physics/problems.hpp"
 
 namespace piblocks {
 

@@ -3,8 +3,8 @@
 // simulation time runs evenly. Pictures and sound follow the same stretches.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -170,7 +170,7 @@ class StoryReader {
 
 }  // namespace
 
-struct ScriptBuilder::State {
+struct ScriptBuilder::Impl {
   SceneDraft film{"scene"};           // in a storyboard the values for all parts
   std::string path;                   // of the file, or what stands for it in messages
   std::vector<std::string> left_out;  // keys of the file
@@ -182,17 +182,17 @@ struct ScriptBuilder::State {
   bool leave_out(TomlEntry& entry) const;
 };
 
-ScriptBuilder::ScriptBuilder() : state_(std::make_unique<State>()) {}
+ScriptBuilder::ScriptBuilder() : impl_(std::make_unique<Impl>()) {}
 ScriptBuilder::~ScriptBuilder() = default;
 
-void ScriptBuilder::read_file(const std::string& path) { state_->read(path, read_toml(path)); }
+void ScriptBuilder::read_file(const std::string& path) { impl_->read(path, read_toml(path)); }
 
 void ScriptBuilder::read_text(const std::string& origin, std::string_view text) {
-  state_->read(origin, parse_toml(origin, text));
+  impl_->read(origin, parse_toml(origin, text));
 }
 
 /// Whether to leave out an entry of the file. Of one that sets two keys, the other one may be kept.
-bool ScriptBuilder::State::leave_out(TomlEntry& entry) const {
+bool ScriptBuilder::Impl::leave_out(TomlEntry& entry) const {
   const auto is_out = [&](std::string_view key) { return std::ranges::count(left_out, key) > 0; };
   constexpr std::array kMass = {"digits", "mass-ratio", "red.mass"};
   if (std::ranges::count(kMass, entry.key) > 0) return std::ranges::any_of(kMass, is_out);
@@ -206,7 +206,7 @@ bool ScriptBuilder::State::leave_out(TomlEntry& entry) const {
   return !keeps_blocks && !keeps_wall;
 }
 
-void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
+void ScriptBuilder::Impl::read(const std::string& origin, TomlTable root) {
   path = origin;
   TomlTable common{{}, root.line};
   for (TomlEntry& entry : root.entries) {
@@ -228,7 +228,7 @@ void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
   }
 }
 
-void ScriptBuilder::leave_out(const std::string& key) { state_->left_out.push_back(key); }
+void ScriptBuilder::leave_out(const std::string& key) { impl_->left_out.push_back(key); }
 
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::string& text) {
@@ -237,32 +237,32 @@ void ScriptBuilder::set(const std::string& origin, const std::string& key,
 
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::vector<std::string>& texts) {
-  state_->set_keys.emplace_back(origin, key);
-  state_->film.set(origin, key, texts);
+  impl_->set_keys.emplace_back(origin, key);
+  impl_->film.set(origin, key, texts);
 }
 
 Script ScriptBuilder::build() const {
-  if (state_->parts.empty() && state_->problems.empty()) return build_scene();
-  ProblemLines problems = state_->problems;
-  for (const auto& [origin, key] : state_->set_keys) {
-    if (state_->parts.empty() || is_film_key(key)) continue;
+  if (impl_->parts.empty() && impl_->problems.empty()) return build_scene();
+  ProblemLines problems = impl_->problems;
+  for (const auto& [origin, key] : impl_->set_keys) {
+    if (impl_->parts.empty() || is_film_key(key)) continue;
     problems.add(origin, fmt::format("'{}' is a storyboard; put {} into it, for all parts or for "
                                      "one. Options can set size, frame rate, theme, background and "
                                      "sound of the whole film",
-                                     state_->path, key));
+                                     impl_->path, key));
   }
-  StoryReader reader(state_->path, state_->film, problems);
-  for (const TomlTable& part : state_->parts) reader.read(part);
+  StoryReader reader(impl_->path, impl_->film, problems);
+  for (const TomlTable& part : impl_->parts) reader.read(part);
   problems.require_none();
   return reader.story();
 }
 
 Scene ScriptBuilder::build_scene() const {
-  ProblemLines problems = state_->problems;
-  if (!state_->parts.empty()) {
-    problems.add(state_->path, "is a storyboard; a scene has no [[part]]");
+  ProblemLines problems = impl_->problems;
+  if (!impl_->parts.empty()) {
+    problems.add(impl_->path, "is a storyboard; a scene has no [[part]]");
   }
-  Scene scene = state_->film.make(problems);
+  Scene scene = impl_->film.make(problems);
   problems.require_none();
   return scene;
 }

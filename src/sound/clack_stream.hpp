@@ -3,7 +3,7 @@
 // Where collisions are denser than samples, those of an eighth of a sample are one clack.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +28,7 @@ class ClackStream {
               int rate_hz);
 
   /// Appends the clacks before this sample that were not read yet. None is more than an eighth of a
-  /// sample earlier than the one before it. @throws SimulationError as CollisionLog::state_at().
+  /// sample earlier than the one before it. @throws SimulationError as PairLog::state_at().
   void read_until(std::int64_t sample, std::vector<Clack>& clacks);
 
  private:

@@ -2,8 +2,8 @@
 // In: runs, and when and where in the film each is heard. Out: its samples, in order.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <array>
 #include <cstddef>
@@ -71,7 +71,7 @@ class Soundtrack {
   std::int64_t size() const noexcept { return size_; }
   /// Writes the next samples, left and right in turn, from -1 to 1.
   /// @return how many pairs; less than there is room for only at the end.
-  /// @throws SimulationError as CollisionLog::state_at().
+  /// @throws SimulationError as PairLog::state_at().
   std::size_t read(std::span<float> samples);
 
  private:

@@ -69,7 +69,7 @@ std::string row_json(const Scene& scene, std::size_t i) {
 }
 
 /// Both ends of the box along an axis.
-std::string box_json(const BodySystem& system, std::string_view low, std::string_view high,
+std::string box_json(const System& system, std::string_view low, std::string_view high,
                      std::size_t axis) {
   std::vector<std::string> ends = {"-inf", "inf"};
   for (const Wall& wall : system.walls) {
@@ -80,7 +80,7 @@ std::string box_json(const BodySystem& system, std::string_view low, std::string
 }
 
 std::string bodies_json(const Scene& scene) {
-  const BodySystem& system = scene.system;
+  const System& system = scene.system;
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < system.bodies.size() && system.bodies.size() <= kMaxBodyRows; ++i) {
     rows.push_back(row_json(scene, i));
@@ -112,7 +112,7 @@ std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
 }
 
 std::string scene_json(const Scene& scene, const FilmRun& run) {
-  const CollisionLog* const pair = run.log().pair();
+  const PairLog* const pair = run.log().pair();
   const Rational ratio =
       pair == nullptr ? Rational(1) : pair->blocks().red.mass / pair->blocks().blue.mass;
   const std::optional<int> digits = digits_of(ratio, scene.show.base);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "media/pixels/rgb24.hpp"
-#include "physics/blocks.hpp"
+#include "physics/logs.hpp"
 #include "scene/run_log.hpp"
 #include "scene/run_tables.hpp"
 #include "scene/schedule.hpp"

@@ -1,9 +1,9 @@
 // Discs in a box to measure with, and the same for the general engine.
-// In: how many. Out: a BodySystem; particles of EventSimulator.
+// In: how many. Out: a System; particles of EventSimulator.
 #pragma once
 
-#include <piblocks/bodies.hpp>
 #include <piblocks/event_simulator.hpp>
+#include <piblocks/system.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -13,14 +13,14 @@
 namespace piblocks::benchmark {
 
 /// Discs of radius 1 on a square lattice, with random velocities, between four walls.
-inline BodySystem disc_gas(std::uint32_t number) {
+inline System disc_gas(std::uint32_t number) {
   constexpr double kPacking = 0.3;
   std::mt19937_64 engine(number);
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
   const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(number)));
   const std::uint32_t rows = (number + columns - 1) / columns;
   const double spacing = std::sqrt(3.14159265 / kPacking * number / (columns * rows));
-  BodySystem system{.dimensions = 2};
+  System system{.dimensions = 2};
   for (std::uint32_t i = 0; i < number; ++i) {
     Body body;
     body.position = {Rational((i % columns + 0.5) * spacing),
@@ -41,7 +41,7 @@ inline BodySystem disc_gas(std::uint32_t number) {
 /// own size leaves rounding in all distances from them.
 /// @param number_of  makes a Number of a Rational
 template <typename Number, typename NumberOf>
-std::vector<Particle<Number, 2>> particles_with_round_walls(const BodySystem& system,
+std::vector<Particle<Number, 2>> particles_with_round_walls(const System& system,
                                                             const Number& wall_radius,
                                                             NumberOf number_of) {
   using Vector = typename Particle<Number, 2>::Vector;

@@ -1,8 +1,8 @@
 // Collisions a second of discs in a box, by the engine for discs and by the general one.
 // In: nothing. Out: a table. Build it with the preset release.
 #include <fmt/format.h>
-#include <piblocks/bodies.hpp>
 #include <piblocks/event_simulator.hpp>
+#include <piblocks/system.hpp>
 
 #include <cstdint>
 #include <string>
@@ -38,7 +38,7 @@ double rate_of(Step step, std::int64_t skip) {
 }
 
 void measure(std::uint32_t number) {
-  const BodySystem system = disc_gas(number);
+  const System system = disc_gas(number);
   std::vector<double> setups;
   std::vector<double> certain_rates;
   std::vector<double> rates;

@@ -1,8 +1,7 @@
 // Blocks that lose energy, from outside: the option, and what says that collisions are infinitely
 // many.
 #include <fmt/format.h>
-#include <piblocks/restitution.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include "cli/cli_fixture.hpp"
 #include "support/inelastic_run.hpp"

@@ -1,6 +1,6 @@
 // Sound as a user gets it: in MP4 and WAV, decoded by ffmpeg.
 #include <fmt/format.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <array>
 #include <cmath>
@@ -68,7 +68,7 @@ TEST_F(SoundTest, ClacksOfTheVideoAreWhereThoseOfTheSoundAloneAre) {
     const std::vector<float> sound = left("a.wav");
     const std::vector<float> decoded = left("a.mp4");
     ASSERT_GE(decoded.size(), sound.size());
-    const auto log = make_collision_log(article_blocks(std::stoi(digits)));
+    const auto log = make_pair_log(article_blocks(std::stoi(digits)));
     for (Integer index = 1; index <= log->last(); ++index) {
       const auto at = std::size_t(log->blocks_collision(index).time.hi * 48000);
       EXPECT_LE(std::abs(lag(sound, decoded, at - 50, at + 400)), 1) << index.get_str();
@@ -78,7 +78,7 @@ TEST_F(SoundTest, ClacksOfTheVideoAreWhereThoseOfTheSoundAloneAre) {
 }
 
 TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
-  const auto log = make_collision_log(article_blocks(2));
+  const auto log = make_pair_log(article_blocks(2));
   output_of(Arguments{"render", "--digits", "2", "-o", "a.wav"} + kSmallSound);
   const std::vector<float> sound = left("a.wav");
   for (const auto& [name, codec] : {std::pair{"a.mp4", "aac"},

@@ -1,5 +1,5 @@
 // count, state, info, help and version.
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include "cli/cli_fixture.hpp"
 #include "support/oracle.hpp"

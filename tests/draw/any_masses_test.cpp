@@ -19,13 +19,13 @@ using Setting = std::pair<const char*, std::string>;
 
 struct Pictures {
   explicit Pictures(const Scene& scene)
-      : log(make_collision_log(scene.system)), composition(scene, *log) {}
+      : log(make_pair_log(scene.system)), composition(scene, *log) {}
 
   DrawList at(const Rational& time) const {
     return composition.frame({log->blocks_at(time), time});
   }
 
-  std::unique_ptr<CollisionLog> log;
+  std::unique_ptr<PairLog> log;
   Composition composition;
 };
 

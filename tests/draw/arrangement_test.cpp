@@ -198,7 +198,7 @@ class Arrangements : public testing::Test {
  protected:
   void expect_sound(const Case& one) {
     const Scene scene = scene_of(one);
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     ++tried_;
     try {
       const Composition composition(scene, *log);

@@ -31,7 +31,7 @@ inline Scene scene_with(int digits, const std::vector<Setting>& settings) {
 
 struct Pictures {
   explicit Pictures(const Scene& scene)
-      : log(make_collision_log(scene.system)), composition(scene, *log) {}
+      : log(make_pair_log(scene.system)), composition(scene, *log) {}
 
   DrawList at(const Rational& time, const Rational& slowdown = 1) const {
     return composition.frame({.state = log->blocks_at(time),
@@ -40,14 +40,14 @@ struct Pictures {
                               .gaps = log->gaps_at(time)});
   }
 
-  std::unique_ptr<CollisionLog> log;
+  std::unique_ptr<PairLog> log;
   Composition composition;
 };
 
 /// What overlays are made from, of two blocks and a wall.
 struct Drawing {
   explicit Drawing(const Scene& scene)
-      : log(make_collision_log(scene.system)),
+      : log(make_pair_log(scene.system)),
         colors(colors_of(scene, &log->blocks())),
         palette(palette_of(scene.view.theme, log->blocks(), colors)),
         sizes(scene.view),
@@ -55,7 +55,7 @@ struct Drawing {
             {scene, *log, palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)), sizes},
             layout} {}
 
-  std::unique_ptr<CollisionLog> log;
+  std::unique_ptr<PairLog> log;
   std::vector<BlockColors> colors;
   Palette palette;
   Fonts fonts;

@@ -137,7 +137,7 @@ Scene scene_of(const Settings& settings) {
 struct Figure {
   explicit Figure(const Settings& settings, const Rational& time = 0) {
     const Scene scene = scene_of(settings);
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const DrawList list = Composition(scene, *log).frame({log->blocks_at(time), time});
     for (const DrawItem& item : list.items) {
       const auto* plate = std::get_if<PlateItem>(&item);

@@ -27,7 +27,7 @@ using Settings = std::vector<Setting>;
 struct Pictures {
   Pictures(int digits, const Settings& settings)
       : scene(scene_of(digits, settings)),
-        log(make_collision_log(scene.system)),
+        log(make_pair_log(scene.system)),
         composition(scene, *log) {}
 
   static Scene scene_of(int digits, const Settings& settings) {
@@ -43,7 +43,7 @@ struct Pictures {
   }
 
   Scene scene;
-  std::unique_ptr<CollisionLog> log;
+  std::unique_ptr<PairLog> log;
   Composition composition;
 };
 
@@ -86,7 +86,7 @@ const Palette kPalette = palette_of(Theme::lecture);
 
 TEST(CountCurve, IsTheLogs) {
   for (const int digits : {1, 2, 3, 5, 20}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_pair_log(article_system(digits));
     const Span span{0, 8};
     constexpr int kColumns = 300;
     const auto points = count_curve(*log, span, kColumns);
@@ -138,7 +138,7 @@ TEST(CountCurve, BeginsWithWhatHappensAtTheVeryBeginning) {
 
 TEST(CountCurve, TheTurnIsEnlargedUntilStepsAreSeen) {
   for (int digits = 2; digits <= 20; ++digits) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_pair_log(article_system(digits));
     const Integer total = log->last();
     const InsetLimits limits{.span = {0, 8},
                              .width_share = Rational(1, 3),
@@ -170,15 +170,15 @@ TEST(CountCurve, TheTurnIsEnlargedUntilStepsAreSeen) {
 }
 
 TEST(CountCurve, NothingIsEnlargedWithoutNeed) {
-  const auto log = make_collision_log(article_system(1));
+  const auto log = make_pair_log(article_system(1));
   EXPECT_FALSE(enlarged_turn(*log, {{0, 8}, Rational(1, 3), 12, 10}));
-  const auto many = make_collision_log(article_system(4));
+  const auto many = make_pair_log(article_system(4));
   EXPECT_FALSE(enlarged_turn(*many, {{5, 8}, Rational(1, 3), 12, 1000})) << "no turn is shown";
   TwoBlocks corner = article_blocks(3);
   corner.blue.position = 4;  // touches red
   corner.blue.velocity = corner.red.velocity;
   const InsetLimits all{{0, 8}, Rational(1, 3), 12, 100};
-  EXPECT_FALSE(enlarged_turn(*make_collision_log(corner), all)) << "all happen at once";
+  EXPECT_FALSE(enlarged_turn(*make_pair_log(corner), all)) << "all happen at once";
 }
 
 TEST(CountCurve, FactorsAreRound) {
@@ -285,7 +285,7 @@ bool has_corner(const ShownPath& path, const Gaps& gaps, double within) {
 
 TEST(CornerPath, HoldsAllCollisionsAtEveryMagnification) {
   for (const int digits : {1, 2, 3, 4}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_pair_log(article_system(digits));
     const CornerPath path(*log, {0, 8}, 200);
     for (double window = path.greatest_y2(); window > path.least_y2(); window /= 3.7) {
       const ShownPath shown = path.shown({.to = window, .least_apart = window / 100});
@@ -310,7 +310,7 @@ TEST(CornerPath, HoldsAllCollisionsAtEveryMagnification) {
 }
 
 TEST(CornerPath, CostsNoMoreForMoreCollisions) {
-  const auto log = make_collision_log(article_system(20));
+  const auto log = make_pair_log(article_system(20));
   const CornerPath path(*log, {0, 8}, 200);
   EXPECT_LT(path.least_y2(), 1e-18);
   for (double window = path.greatest_y2(); window > path.least_y2(); window /= 10) {
@@ -356,7 +356,7 @@ TEST(ConservationPanel, SumsAreConstant) {
       return (is_right ? box.width : -box.width) / first.width;
     };
     for (Integer k = 1; k <= pictures.log->last(); k += 1) {
-      const BlockState state = state_after(*pictures.log, k);
+      const PairState state = state_after(*pictures.log, k);
       const std::vector<RectangleItem> bars = Shown(pictures.composition.frame({state})).bars;
       ASSERT_EQ(bars.size(), 4U);
       EXPECT_NEAR(momentum(bars[1]), state.red.velocity, 1e-9);
@@ -370,7 +370,7 @@ TEST(ConservationPanel, EnergyIsShared) {
   const Pictures pictures(3, {{"show.panels", "conservation"}, {"view.size", "1280x720"}});
   const double whole = Shown(pictures.at(0)).bars.front().bounds.width;
   for (Integer k = 1; k <= pictures.log->last(); k += 1) {
-    const BlockState state = state_after(*pictures.log, k);
+    const PairState state = state_after(*pictures.log, k);
     const Shown shown(pictures.composition.frame({state}));
     EXPECT_NEAR(shown.bars.front().bounds.width / whole, state.red.velocity * state.red.velocity,
                 1e-9);
@@ -381,14 +381,14 @@ TEST(ConservationPanel, EnergyIsShared) {
 TEST(ConservationPanel, BarsStayInTheirColumn) {
   const Body fixed{std::nullopt, {20, 0}, {}, 1};
   const Body heavy{30, {5, 0}, {3, 0}, 1};
-  std::vector<BodySystem> systems(5, BodySystem{1, {{1, {2, 0}, {-7, 0}, 1}, heavy}, {}});
+  std::vector<System> systems(5, System{1, {{1, {2, 0}, {-7, 0}, 1}, heavy}, {}});
   systems[1].walls = {{"right", {9, 0}, {-1, 0}}};
   systems[2].walls = {{"left", {0, 0}, {1, 0}}, {"right", {9, 0}, {-1, 0}}};
   systems[3].bodies.push_back(fixed);
   systems[4] = systems[2];
   for (int i = 1; i < 9; ++i) systems[4].bodies.push_back({i, {5 + i, 0}, {i, 0}, Rational(1, 2)});
   systems[4].walls[1].point[0] = 30;
-  for (const BodySystem& system : systems) {
+  for (const System& system : systems) {
     Scene scene =
         Pictures::scene_of(1, {{"show.panels", "conservation"}, {"view.size", "1280x720"}});
     scene.system = system;

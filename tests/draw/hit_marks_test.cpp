@@ -52,7 +52,7 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
   for (const int digits : {1, 2}) {
     SCOPED_TRACE(digits);
     const Frames frames(lecture(digits));
-    const CollisionLog& log = frames.log();
+    const PairLog& log = frames.log();
     const Schedule schedule = make_schedule(frames.scene(), log);
     int arcs_seen = 0;
     for (std::int64_t number = 0; number < schedule.frame_count().get_si(); ++number) {
@@ -63,7 +63,7 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
       const double now = double(number) / 60;
       std::size_t next = 0;
       for (Integer k = 1; k <= log.last(); ++k) {
-        const Collision collision = log.blocks_collision(k);
+        const PairCollision collision = log.blocks_collision(k);
         const double age = now - collision.time.hi;
         if (age < 0 || age >= 0.15 - 1e-9) continue;
         ASSERT_LT(next, items.size());
@@ -119,7 +119,7 @@ TEST(HitMarks, GlowByTheLogarithmOfTheRate) {
 /// Of any number of colours.
 TEST(HitMarks, GlowWhereverTheyAreTooMany) {
   Scene scene = scene_with(lecture(1));
-  BodySystem system{1, {}, {{"left", {0, 0}, {1, 0}}}};
+  System system{1, {}, {{"left", {0, 0}, {1, 0}}}};
   for (int i = 0; i < 40; ++i) {
     system.bodies.push_back({.position = {1 + i, 0}, .velocity = {-i, 0}, .size = Rational(1, 2)});
   }

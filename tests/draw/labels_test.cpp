@@ -25,7 +25,7 @@ class Labels {
  public:
   Labels(int digits, const Settings& settings)
       : scene_(scene_with(digits, settings)),
-        log_(make_collision_log(scene_.system)),
+        log_(make_pair_log(scene_.system)),
         composition_(scene_, *log_) {}
 
   DrawList at(const Rational& time) const {
@@ -42,7 +42,7 @@ class Labels {
   }
 
   Scene scene_;
-  std::unique_ptr<CollisionLog> log_;
+  std::unique_ptr<PairLog> log_;
   Composition composition_;
 };
 
@@ -187,7 +187,7 @@ TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
     builder.set("test", "red.position", red_position);
     Scene scene = builder.build_scene();
     scene.view.x = view;
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const std::vector<TextItem> figures =
         texts_of(Composition(scene, *log).frame({log->blocks_at(0)}), ItemId::velocities);
     EXPECT_EQ(figures.size(), count) << red_position;

@@ -28,12 +28,10 @@ class Frames {
  public:
   explicit Frames(const Settings& settings) : Frames(scene_with(settings)) {}
   explicit Frames(Scene scene)
-      : scene_(std::move(scene)),
-        log_(make_collision_log(scene_.system)),
-        composition_(scene_, *log_) {}
+      : scene_(std::move(scene)), log_(make_pair_log(scene_.system)), composition_(scene_, *log_) {}
 
   const Scene& scene() const { return scene_; }
-  const CollisionLog& log() const { return *log_; }
+  const PairLog& log() const { return *log_; }
   Rational turn() const { return turn_of(*two_blocks_of(scene_.system)).value(); }
 
   FrameState state(const FrameTime& shown) const {
@@ -49,7 +47,7 @@ class Frames {
 
  private:
   Scene scene_;
-  std::unique_ptr<CollisionLog> log_;
+  std::unique_ptr<PairLog> log_;
   Composition composition_;
 };
 

@@ -74,7 +74,7 @@ double area(std::span<const PixelRect> rects) {
   return sum;
 }
 
-DrawList frame(const Composition& composition, const CollisionLog& log, const Rational& time) {
+DrawList frame(const Composition& composition, const PairLog& log, const Rational& time) {
   return composition.frame({.state = log.blocks_at(time), .time = time, .gaps = log.gaps_at(time)});
 }
 
@@ -84,7 +84,7 @@ void expect_exact_updates(Background background) {
     scene.view.background = background;
     scene.view.width_px = width;
     scene.view.height_px = height;
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const Composition composition(scene, *log);
     Canvas canvas(width, height, background_for(frame(composition, *log, 0)));
     for (int i = 0; i < 120; ++i) {
@@ -105,7 +105,7 @@ TEST(Region, OfAScenesFrameIsSmall) {
   Scene scene = ScriptBuilder().build_scene();
   scene.view.width_px = 1280;
   scene.view.height_px = 720;
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Composition composition(scene, *log);
   Canvas canvas(1280, 720);
   EXPECT_EQ(area(canvas.update(frame(composition, *log, 1))), 1280 * 720);
@@ -124,7 +124,7 @@ TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
     builder.set("test", "show.overlays", "digits,masses,velocities,time");
     builder.set("test", "show.panels", panels);
     const Scene scene = builder.build_scene();
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const Composition composition(scene, *log);
     Canvas canvas(800, 600);
     for (int i = 0; i < 60; ++i) {

@@ -108,7 +108,7 @@ std::string problem_with(const Feature& feature, int width_px, int height_px, bo
   builder.set("test", "view.size", std::to_string(width_px) + "x" + std::to_string(height_px));
   builder.set("test", feature.key, feature.text);
   const Scene scene = builder.build_scene();
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const auto logo = std::make_shared<const Image>(Image{3, 2, std::vector<std::uint32_t>(6)});
   try {
     const Composition composition(scene, *log, scene.show.logo.empty() ? nullptr : logo);

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cmath>
 
@@ -41,15 +41,15 @@ Layout lay_out(const Scene& scene, const Integer& longest_count) {
   return lay_out_article(Drawing(scene).context, longest_count, whole);
 }
 
-DrawList compose(const Scene& scene, const BlockState& state) {
-  return Composition(scene, *make_collision_log(scene.system)).frame({state});
+DrawList compose(const Scene& scene, const PairState& state) {
+  return Composition(scene, *make_pair_log(scene.system)).frame({state});
 }
 
 double right(const Rect& r) { return r.right(); }
 
 TEST(Stage, BlocksTouchWhereTheyCollide) {
   const Scene scene = scene_of(3, 1920, 1080);
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const DrawList blocks = compose(scene, state_after(*log, 1));
   EXPECT_NEAR(right(rectangle(blocks, ItemId::blue_block).bounds),
               rectangle(blocks, ItemId::red_block).bounds.x, 1e-9);
@@ -64,7 +64,7 @@ TEST(Stage, BlocksStandOnOneBase) {
     Scene scene = scene_of(2, 1920, 1080);
     scene.system.bodies[1].size = parse_rational(width);
     scene.show.overlays = {Overlay::masses};
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const DrawList list = compose(scene, state_after(*log, 3));
     const Rect red = rectangle(list, ItemId::red_block).bounds;
     const Rect blue = rectangle(list, ItemId::blue_block).bounds;
@@ -89,7 +89,7 @@ TEST(Stage, TheHatchStaysBehindTheFaceOfTheWall) {
     for (const Theme theme : {Theme::lecture, Theme::lecture_light, Theme::print}) {
       Scene scene = scene_of(2, width, height);
       scene.view.theme = theme;
-      const DrawList list = compose(scene, make_collision_log(scene.system)->blocks_at(0));
+      const DrawList list = compose(scene, make_pair_log(scene.system)->blocks_at(0));
       const std::vector<DrawItem>& wall = std::get<PlateItem>(list.items.front()).plate->items;
       const Rect face = std::get<RectangleItem>(wall.back()).bounds;
       ASSERT_GT(wall.size(), 5U);
@@ -112,7 +112,7 @@ TEST(Stage, LinesOfBlocksDoNotDependOnWhatIsBesideThem) {
     full.show.title = "Title";
     full.show.panels = {Panel::time, Panel::velocity};
     const auto line_px = [](const Scene& scene) {
-      const auto log = make_collision_log(scene.system);
+      const auto log = make_pair_log(scene.system);
       return rectangle(compose(scene, log->blocks_at(0)), ItemId::blue_block).stroke->width_px;
     };
     EXPECT_EQ(line_px(plain), line_px(full)) << width << 'x' << height;
@@ -121,7 +121,7 @@ TEST(Stage, LinesOfBlocksDoNotDependOnWhatIsBesideThem) {
 
 TEST(Stage, CounterShowsTheExactCountWithSeparators) {
   const Scene scene = scene_of(5, 1280, 720);
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   EXPECT_EQ(text(compose(scene, log->blocks_at(0)), ItemId::count).text, "0");
   EXPECT_EQ(text(compose(scene, state_after(*log, 1234)), ItemId::count).text, "1,234");
   EXPECT_EQ(text(compose(scene, log->blocks_at(1000)), ItemId::count).text, "31,415");
@@ -141,7 +141,7 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
                                         {64, 36},
                                         {2, 2}}) {
       const Scene scene = scene_of(digits, width, height);
-      const auto log = make_collision_log(scene.system);
+      const auto log = make_pair_log(scene.system);
       const DrawList list = compose(scene, state_after(*log, log->last()));
       const Rect wall = rectangle(list, ItemId::wall).bounds;
       const TextItem& label = text(list, ItemId::label);
@@ -161,7 +161,7 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
 
 TEST(Stage, NothingMovesButTheBlocksAndTheCount) {
   const Scene scene = scene_of(6, 1920, 1080);
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const DrawList start = compose(scene, log->blocks_at(0));
   const DrawList later = compose(scene, log->blocks_at(4));
   EXPECT_EQ(rectangle(start, ItemId::wall), rectangle(later, ItemId::wall));
@@ -180,7 +180,7 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
       scene.system.bodies[1].velocity[0] = 1;
       scene.time.from = parse_instant(from);
       scene.time.to = parse_instant("1");
-      const auto log = make_collision_log(scene.system);
+      const auto log = make_pair_log(scene.system);
       const DrawList list = compose(scene, log->blocks_at(-20));
       const TextItem& count = text(list, ItemId::count);
       const TextItem& label = text(list, ItemId::label);
@@ -215,7 +215,7 @@ TEST(Stage, EdgesThatDoNotMoveAreSharp) {
   for (const auto& [width, height] :
        {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {854, 480}}) {
     const Scene scene = scene_of(3, width, height);
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const DrawList list = compose(scene, log->blocks_at(4));
     const Rect wall = rectangle(list, ItemId::wall).bounds;
     const Rect blue = rectangle(list, ItemId::blue_block).bounds;
@@ -229,7 +229,7 @@ TEST(Stage, FollowsTheScenesGeometry) {
   scene.system.walls[0].point[0] = Rational(-1, 2);
   scene.system.bodies[0].size = Rational(1, 2);
   scene.system.bodies[1].size = 2;
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Layout layout = lay_out(scene, log->last());
   const DrawList list = compose(scene, log->blocks_at(0));
   const Rect wall = rectangle(list, ItemId::wall).bounds;

@@ -161,7 +161,7 @@ TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
     scene.view.theme = theme;
     return std::string(palette_of(theme, blocks, colors_of(scene, &blocks)).red.full_name);
   };
-  BodySystem system = article_system(2);
+  System system = article_system(2);
   EXPECT_EQ(name_of_red(Theme::print, *two_blocks_of(system)), "large block");
   std::swap(system.bodies[0].mass, system.bodies[1].mass);
   EXPECT_EQ(name_of_red(Theme::colorblind, *two_blocks_of(system)), "small block");

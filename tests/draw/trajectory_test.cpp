@@ -12,12 +12,12 @@ struct Traced {
   explicit Traced(int digits, const Rational& from, const Rational& to, int columns)
       : system(article_blocks(digits)),
         wedge(system),
-        log(make_collision_log(system)),
+        log(make_pair_log(system)),
         pieces(trajectory_of(*log, wedge, {from, to}, columns)) {}
 
   TwoBlocks system;
   GapWedge wedge;
-  std::unique_ptr<CollisionLog> log;
+  std::unique_ptr<PairLog> log;
   std::vector<TrajectoryPiece> pieces;
 };
 
@@ -31,7 +31,7 @@ TEST(Trajectory, BandsCoverWhatBlueDoesAndNoMore) {
         double low = 1e9;
         double high = 0;
         for (Integer k = 1; k <= traced.log->last(); k += 1) {
-          const Collision collision = traced.log->blocks_collision(k);
+          const PairCollision collision = traced.log->blocks_collision(k);
           if (collision.time.hi < band.from.time || collision.time.hi > band.to.time) continue;
           const Gaps at = traced.wedge.gaps_of(collision.blue, collision.red);
           low = std::min(low, at.y1);
@@ -52,7 +52,7 @@ TEST(Trajectory, CornersAreTheCollisions) {
     corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
   }
   for (const Integer& k : {Integer(1), Integer(2), Integer(30), Integer(31)}) {
-    const Collision collision = traced.log->blocks_collision(k);
+    const PairCollision collision = traced.log->blocks_collision(k);
     const Gaps at = traced.wedge.gaps_of(collision.blue, collision.red);
     EXPECT_TRUE(std::ranges::any_of(corners, [&](const TimedGaps& corner) {
       return corner.time == collision.time.hi && corner.gaps.y1 == at.y1 && corner.gaps.y2 == at.y2;

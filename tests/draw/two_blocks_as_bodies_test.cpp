@@ -22,7 +22,7 @@ Scene as_bodies(Scene scene) {
 /// The same, turned round in its frame.
 Scene turned_round(const Scene& scene) {
   Scene turned = as_bodies(scene);
-  BodySystem& system = turned.system;
+  System& system = turned.system;
   for (Body& body : system.bodies) {
     body.position[0] *= -1;
     body.velocity[0] *= -1;

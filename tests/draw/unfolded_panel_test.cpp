@@ -37,7 +37,7 @@ Scene scene_with(int digits, const Settings& settings) {
 
 struct Pictures {
   explicit Pictures(Scene of)
-      : scene(std::move(of)), log(make_collision_log(scene.system)), composition(scene, *log) {}
+      : scene(std::move(of)), log(make_pair_log(scene.system)), composition(scene, *log) {}
 
   DrawList at(const Rational& time) const { return composition.frame({log->state_at(time), time}); }
   DrawList after(const Integer& index) const {
@@ -47,7 +47,7 @@ struct Pictures {
   Rational end() const { return span_of(scene, *log).to; }
 
   Scene scene;
-  std::unique_ptr<CollisionLog> log;
+  std::unique_ptr<PairLog> log;
   Composition composition;
 };
 
@@ -164,7 +164,7 @@ TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
     double before = 0;
     for (std::size_t i = 0; i < dots.size(); ++i) {
       const Integer k(static_cast<unsigned long>(i) + 1);
-      const Collision collision = pictures.log->blocks_collision(k);
+      const PairCollision collision = pictures.log->blocks_collision(k);
       const Gaps gaps = pictures.log->gaps_at_collision(k);
       EXPECT_NEAR(plane.distance(dots[i].centre),
                   std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1),

@@ -27,7 +27,7 @@ constexpr double kMorphed_s = 10;  ///< of video: the ellipse is a circle by the
 struct Pictures {
   explicit Pictures(const Settings& settings, const char* panel = "velocity")
       : scene(scene_of(settings, panel)),
-        log(make_collision_log(scene.system)),
+        log(make_pair_log(scene.system)),
         composition(scene, *log) {}
 
   static Scene scene_of(const Settings& settings, const char* panel) {
@@ -38,7 +38,7 @@ struct Pictures {
     return builder.build_scene();
   }
 
-  DrawList of(const BlockState& state, double video_s) const {
+  DrawList of(const PairState& state, double video_s) const {
     FrameState shown{state};
     shown.video_s = video_s;
     return composition.frame(shown);
@@ -48,7 +48,7 @@ struct Pictures {
     return of(is_start ? log->blocks_at(0) : state_after(*log, index), video_s);
   }
   /// The velocity as a point of the circle of radius 1; y is up.
-  Point unit(const Motion& blue, const Motion& red) const {
+  Point unit(const BlockMotion& blue, const BlockMotion& red) const {
     const double m1 = to_double(scene.system.bodies[0].mass.value());
     const double m2 = to_double(scene.system.bodies[1].mass.value());
     const double v1 = to_double(scene.system.bodies[0].velocity[0]);
@@ -62,7 +62,7 @@ struct Pictures {
   }
 
   Scene scene;
-  std::unique_ptr<CollisionLog> log;
+  std::unique_ptr<PairLog> log;
   Composition composition;
 };
 
@@ -128,7 +128,7 @@ class Starts : public testing::TestWithParam<Settings> {};
 
 TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
   const Pictures pictures(GetParam());
-  const CollisionLog& log = *pictures.log;
+  const PairLog& log = *pictures.log;
   for (Integer count = 0; count <= log.last(); ++count) {
     const Figure figure(pictures.after(count));
     const Frame circle(figure);
@@ -136,12 +136,12 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
     const auto blue = figure.lines_of(kPalette.blue.line);
     EXPECT_EQ(Integer(static_cast<unsigned long>(red.size() + blue.size())), count);
     std::map<CollisionKind, std::size_t> seen;
-    const BlockState start = log.blocks_at(0);
+    const PairState start = log.blocks_at(0);
     Point before = pictures.unit({0, to_double(pictures.scene.system.bodies[0].velocity[0])},
                                  {0, to_double(pictures.scene.system.bodies[1].velocity[0])});
     expect_near(figure.discs.front().centre, circle.at(before), "start", start.count);
     for (Integer k = 1; k <= count; ++k) {
-      const Collision collision = log.blocks_collision(k);
+      const PairCollision collision = log.blocks_collision(k);
       const Point after = pictures.unit(collision.blue, collision.red);
       const auto& chords = collision.kind == CollisionKind::wall ? blue : red;
       const std::size_t n = seen[collision.kind]++;
@@ -214,11 +214,11 @@ TEST(VelocityPanel, CountsFromTheScenesBeginning) {
                            {"blue.velocity", "3"},
                            {"time.from", "-10"},
                            {"time.to", "10"}});
-  const CollisionLog& log = *pictures.log;
+  const PairLog& log = *pictures.log;
   ASSERT_LT(log.first_index(), 1);
   const Integer before = log.blocks_at(-10).count;
   for (Integer count = before; count <= log.last(); ++count) {
-    const BlockState state =
+    const PairState state =
         count < log.first_index() ? log.blocks_at(-10) : state_after(log, count);
     const Figure figure(pictures.of(state, 0));
     const Frame circle(figure);
@@ -297,7 +297,7 @@ TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
       }
       const Point from = pictures.unit({0, to_double(pictures.scene.system.bodies[0].velocity[0])},
                                        {0, to_double(pictures.scene.system.bodies[1].velocity[0])});
-      const BlockState state =
+      const PairState state =
           count == 0 ? pictures.log->blocks_at(0) : state_after(*pictures.log, count);
       const Point to = pictures.unit(state.blue, state.red);
       const double expected =
@@ -336,7 +336,7 @@ TEST(EllipsePanel, FollowsOneMapToTheCircle) {
       ellipse.blue = circle.red;
       ASSERT_EQ(figure.discs.size(), static_cast<std::size_t>(count) + 2);
       for (int k = 1; k <= count; ++k) {
-        const Collision collision = pictures.log->blocks_collision(k);
+        const PairCollision collision = pictures.log->blocks_collision(k);
         expect_near(figure.discs[static_cast<std::size_t>(k)].centre,
                     ellipse.at(pictures.unit(collision.blue, collision.red)), "dot", k);
       }

@@ -1,7 +1,7 @@
 // Scene files and storyboards: read, checked, and, if they are good, asked where the blocks are.
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cstdlib>
 
@@ -12,7 +12,7 @@ namespace {
 using namespace piblocks;
 
 void ask(const Scene& scene) {
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   for (const std::int64_t frame : {std::int64_t{0}, film_frames(schedule) - 1}) {
     log->blocks_at(schedule.time_of(frame));

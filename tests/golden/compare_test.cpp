@@ -182,9 +182,9 @@ TEST(Compare, RefusesImagesOfDifferentDepths) {
   EXPECT_THROW(compare(deep(1023, {0}), deep(65535, {0})), UsageError);
 }
 
-Image painted(const Scene& scene, const BlockState& state) {
+Image painted(const Scene& scene, const PairState& state) {
   Canvas canvas(scene.view.width_px, scene.view.height_px);
-  canvas.paint(Composition(scene, *make_collision_log(scene.system)).frame({state}));
+  canvas.paint(Composition(scene, *make_pair_log(scene.system)).frame({state}));
   Image image{scene.view.width_px, scene.view.height_px, {}};
   for (int y = 0; y < image.height_px; ++y) {
     const auto* row = reinterpret_cast<const std::uint32_t*>(canvas.view().row(y));
@@ -197,8 +197,8 @@ TEST(Compare, OneDigitOfACounterCannotHideInAFrameOf4K) {
   Scene scene;
   scene.view.width_px = 3840;
   scene.view.height_px = 2160;
-  const auto log = make_collision_log(scene.system);
-  BlockState state = log->blocks_at(time_of(Instant::last(), *log));
+  const auto log = make_pair_log(scene.system);
+  PairState state = log->blocks_at(time_of(Instant::last(), *log));
   const Image right = painted(scene, state);
   for (const int wrong : {313, 315, 304, 374, 214}) {
     state.count = wrong;

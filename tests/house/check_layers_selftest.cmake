@@ -10,7 +10,7 @@ function(check_tree result output file line)
   file(WRITE ${SCRATCH}/include/piblocks/event_simulator.hpp "#include <Eigen/Core>\n")
   file(WRITE ${SCRATCH}/src/core/exact.cpp "#include <mpfr.h>\n// #include <cairo.h>\n")
   file(WRITE ${SCRATCH}/src/draw/canvas.cpp "#include <ft2build.h>\n#include FT_FREETYPE_H\n"
-       "#include <piblocks/run.hpp>\n#include <cairo-ft.h>\n#include \"physics/exposure.hpp\"\n")
+       "#include <piblocks/two_blocks.hpp>\n#include <cairo-ft.h>\n#include \"physics/exposure.hpp\"\n")
   file(WRITE ${SCRATCH}/src/media/mp4.cpp "#include \"core/output_file.hpp\"\n"
        "#include <sys/stat.h>\n#include <libavformat/avformat.h>\n")
   file(WRITE ${SCRATCH}/src/cli/main.cpp "#include <CLI/CLI.hpp>\n#include <fmt/format.h>\n")
@@ -42,9 +42,9 @@ expect_clean(src/render/render.cpp "#include <piblocks/encode.hpp>")
 expect_clean(src/scene/scene.cpp "#include <toml++/toml.h>")
 
 # Upwards and sideways through the layers, by public and by private headers.
-expect_fault(src/core/exact.cpp "#include <piblocks/run.hpp>")
+expect_fault(src/core/exact.cpp "#include <piblocks/two_blocks.hpp>")
 expect_fault(src/physics/log.cpp "  #  include <piblocks/scene.hpp>")
-expect_fault(src/media/png.cpp "#include <piblocks/run.hpp>")
+expect_fault(src/media/png.cpp "#include <piblocks/two_blocks.hpp>")
 expect_fault(src/media/png.cpp "#include \"draw/surface.hpp\"")
 expect_fault(src/h264/cavlc.cpp "#include \"core/output_file.hpp\"")
 expect_fault(src/h264/cavlc.cpp "#include <piblocks/error.hpp>")

@@ -1,6 +1,6 @@
 // The library against an oracle that shares nothing with it.
 #include <gtest/gtest.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,9 +46,9 @@ PositionBounds a_priori_bounds(const TwoBlocks& system, const oracle::ExactState
 }
 
 /// The state is the oracle's, to the bound that the log gives and to ours.
-void expect_accurate(const TwoBlocks& system, const CollisionLog& log, const Rational& t) {
+void expect_accurate(const TwoBlocks& system, const PairLog& log, const Rational& t) {
   SCOPED_TRACE("t = " + t.get_str());
-  const BlockState state = log.blocks_at(t);
+  const PairState state = log.blocks_at(t);
   const oracle::ExactState exact = oracle::high_precision_state(system, t);
   EXPECT_EQ(state.count, exact.count);
   const PositionBounds ours = a_priori_bounds(system, exact);
@@ -70,11 +70,11 @@ void expect_accurate(const TwoBlocks& system, const CollisionLog& log, const Rat
 TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
   for (int digits = 1; digits <= 20; ++digits) {
     const TwoBlocks system = article_blocks(digits);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     for (const char* text : {"0", "3.5", "4", "6", "3.4999999", "3.50000001", "15"}) {
       const Rational t = parse_rational(text);
       expect_accurate(system, *log, t);
-      const BlockState state = log->blocks_at(t);
+      const PairState state = log->blocks_at(t);
       const oracle::ExactState exact = oracle::high_precision_state(system, t);
       EXPECT_NEAR(to_double(Rational(state.blue.position) - exact.blue.position), 0, 1e-13);
       EXPECT_NEAR(to_double(Rational(state.red.position) - exact.red.position), 0, 1e-13);
@@ -87,7 +87,7 @@ TEST(Accuracy, AtRandomTimes) {
   SCOPED_TRACE(random.trace());
   for (int digits : {1, 2, 3, 5, 9, 12, 17, 25, 40, 100}) {
     const TwoBlocks system = article_blocks(digits);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     for (int i = 0; i < 40; ++i) {
       // Half of the times close in on the turning point at every scale.
       const Rational t =
@@ -104,7 +104,7 @@ TEST(Accuracy, OfRandomSystems) {
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 400; ++i) {
     const TwoBlocks system = random_system(random, -8, 25);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     EXPECT_EQ(log->last(), oracle::high_precision_total(system));
     for (int j = 0; j < 4; ++j) expect_accurate(system, *log, random.rational(-10, 20, 1000));
   }
@@ -114,7 +114,7 @@ TEST(Accuracy, OfRandomSystems) {
 constexpr double kTimeError = 4e-16;
 
 void expect_event(const oracle::ExactEvent& exact, CollisionKind kind, const Time& time,
-                  const Motion& blue, const Motion& red) {
+                  const BlockMotion& blue, const BlockMotion& red) {
   EXPECT_EQ(kind, exact.kind);
   EXPECT_LE(abs(to_rational(time) - exact.time), exact.time * Rational(kTimeError));
   EXPECT_NEAR(blue.position, to_double(exact.blue.position), 2e-15);
@@ -127,12 +127,12 @@ void expect_event(const oracle::ExactEvent& exact, CollisionKind kind, const Tim
 TEST(Accuracy, OfTheWholeLog) {
   for (int digits = 1; digits <= 3; ++digits) {
     const TwoBlocks system = article_blocks(digits);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
     ASSERT_EQ(log->last(), run.size());
     for (std::size_t i = 0; i < run.size(); ++i) {
       SCOPED_TRACE("collision " + std::to_string(i + 1));
-      const Collision c = log->blocks_collision(Integer(i + 1));
+      const PairCollision c = log->blocks_collision(Integer(i + 1));
       expect_event(run[i], c.kind, c.time, c.blue, c.red);
     }
   }
@@ -141,9 +141,9 @@ TEST(Accuracy, OfTheWholeLog) {
 TEST(Accuracy, OfTheStreamedLog) {
   for (int digits = 1; digits <= 4; ++digits) {
     const TwoBlocks system = article_blocks(digits);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 4000);
-    const auto batch = std::make_unique<CollisionBatch>();
+    const auto batch = std::make_unique<PairBatch>();
     const auto stream = log->stream(1, log->last());
     std::size_t i = 0;
     while (stream->read(*batch)) {
@@ -160,12 +160,12 @@ TEST(Accuracy, OfTheStreamedLog) {
 
 TEST(Accuracy, LogAndStatesAreOneMotion) {
   // A little after each collision the state is the collision's, moved on.
-  const auto log = make_collision_log(article_blocks(6));
+  const auto log = make_pair_log(article_blocks(6));
   for (long k = 1; k < 314159; k += 997) {
-    const Collision now = log->blocks_collision(k);
-    const Collision next = log->blocks_collision(k + 1);
+    const PairCollision now = log->blocks_collision(k);
+    const PairCollision next = log->blocks_collision(k + 1);
     const Rational middle = (to_rational(now.time) + to_rational(next.time)) / 2;
-    const BlockState state = log->blocks_at(middle);
+    const PairState state = log->blocks_at(middle);
     const double half = to_double(middle - to_rational(now.time));
     EXPECT_EQ(state.count, k);
     EXPECT_NEAR(state.blue.position, now.blue.position + half * now.blue.velocity, 1e-13);
@@ -175,20 +175,20 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
 }
 
 TEST(Accuracy, NoBoundIsClaimedForAnEngineThatSteps) {
-  EXPECT_FALSE(make_collision_log(article_blocks(2), Engine::events)->bounds_at(3).has_value());
+  EXPECT_FALSE(make_pair_log(article_blocks(2), Engine::events)->bounds_at(3).has_value());
 }
 
 TEST(Accuracy, EnergyAndMomentumAreKept) {
   const TwoBlocks system = article_blocks(7);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const double ratio = to_double(system.blue.mass / system.red.mass);
   for (long k = 1; k <= 3141592; k += 10007) {
-    const Collision c = log->blocks_collision(k);
+    const PairCollision c = log->blocks_collision(k);
     const double energy =
         ratio * c.blue.velocity * c.blue.velocity + c.red.velocity * c.red.velocity;
     EXPECT_NEAR(energy, 1, 1e-15);
     if (c.kind == CollisionKind::blocks) {
-      const Collision before = log->blocks_collision(Integer(std::max(1L, k - 1)));
+      const PairCollision before = log->blocks_collision(Integer(std::max(1L, k - 1)));
       if (k == 1) continue;
       EXPECT_NEAR(ratio * c.blue.velocity + c.red.velocity,
                   ratio * before.blue.velocity + before.red.velocity, 1e-15);

@@ -1,14 +1,14 @@
 // Where bodies spend an interval of time: every collision is in it, at its time.
 #include <gtest/gtest.h>
-#include <piblocks/bodies.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/system.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "physics/body_logs.hpp"
 #include "physics/exposure.hpp"
+#include "physics/logs.hpp"
 
 namespace piblocks {
 namespace {
@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 /// A body of mass 1 between two that never move, 9/2 apart for its centre.
-BodySystem between_two(const Rational& velocity) {
-  BodySystem system{1, {}, {}};
+System between_two(const Rational& velocity) {
+  System system{1, {}, {}};
   system.bodies.push_back({.mass = std::nullopt, .position = {-3, 0}});
   system.bodies.push_back(
       {.mass = 1, .position = {0, 0}, .velocity = {velocity, 0}, .size = Rational(1, 2)});
@@ -43,10 +43,10 @@ double share_below(const std::vector<BodyPiece>& pieces, double position) {
   return share;
 }
 
-TEST(BodyExposure, ListsEveryCollision) {
+TEST(Exposure, ListsEveryCollision) {
   // 2000 bounces in 1/10, exactly two of them a 1/1000 of it.
   const auto log = make_log(between_two(90'000), Rational(1));
-  const BodyExposure exposure = expose(*log, Rational(1, 7), Rational(1, 7) + Rational(1, 10));
+  const Exposure exposure = expose(*log, Rational(1, 7), Rational(1, 7) + Rational(1, 10));
   ASSERT_EQ(exposure.pieces.size(), 3U);
   EXPECT_EQ(exposure.pieces[1].size(), 2001U);
   for (const BodyPiece& piece : exposure.pieces[1]) {
@@ -59,7 +59,7 @@ TEST(BodyExposure, ListsEveryCollision) {
 }
 
 /// At even times it would always be at one place.
-TEST(BodyExposure, FewPointsOfAWayFollowNoRhythm) {
+TEST(Exposure, FewPointsOfAWayFollowNoRhythm) {
   constexpr std::size_t kPoints = 100;
   const auto log = make_log(between_two(9 * 99), Rational(2));
   const auto paths = log->paths(0, 1, kPoints);
@@ -78,13 +78,13 @@ TEST(BodyExposure, FewPointsOfAWayFollowNoRhythm) {
   EXPECT_GT(std::ranges::max(places), 2);
 }
 
-TEST(BodyExposure, PathsAreThoseOfStates) {
+TEST(Exposure, PathsAreThoseOfStates) {
   const auto log = make_log(between_two(Rational(17, 3)), Rational(10));
   const Rational from(1, 3);
   for (const Rational& to : {Rational(1, 3), Rational(1, 2), Rational(19, 3), Rational(10)}) {
     const auto paths = log->paths(from, to, kAll);
-    const BodiesState before = log->state_at(from);
-    const BodiesState after = log->state_at(to);
+    const State before = log->state_at(from);
+    const State after = log->state_at(to);
     for (std::size_t body = 0; body < 3; ++body) {
       EXPECT_EQ(paths[body].front().position, before.bodies[body].position);
       EXPECT_EQ(paths[body].back().position, after.bodies[body].position);
@@ -96,16 +96,16 @@ TEST(BodyExposure, PathsAreThoseOfStates) {
 }
 
 /// By other names, and mirrored.
-TEST(BodyExposure, OfTheClosedFormIsThatOfTheBlocks) {
+TEST(Exposure, OfTheClosedFormIsThatOfTheBlocks) {
   for (const int sign : {1, -1}) {
-    BodySystem system{1, {}, {}};
+    System system{1, {}, {}};
     system.bodies.push_back({.mass = std::nullopt, .position = {sign * Rational(-1, 2), 0}});
     system.bodies.push_back({.mass = 1, .position = {sign * 2, 0}});
     system.bodies.push_back(
         {.mass = 100'000'000, .position = {sign * 5, 0}, .velocity = {-sign, 0}});
     const auto log = make_log(system);
     ASSERT_TRUE(log->pair());
-    const BodyExposure exposure = expose(*log, 3, 5);
+    const Exposure exposure = expose(*log, 3, 5);
     EXPECT_TRUE(exposure.pieces.empty());
     ASSERT_TRUE(exposure.closed);
     EXPECT_EQ(exposure.closed->blue, 1U);

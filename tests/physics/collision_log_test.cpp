@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ struct Start {
 };
 
 Integer total(const Start& start) {
-  const Integer size = make_collision_log(start.system())->last();
+  const Integer size = make_pair_log(start.system())->last();
   EXPECT_EQ(count_collisions(start.system()), size);
   return size;
 }
@@ -44,7 +44,7 @@ Integer total(const Start& start) {
 TEST(Count, IsTheFirstDigitsOfPi) {
   for (int digits = 1; digits <= 50; ++digits) {
     const Integer expected(std::string(kDigitsOfPi).substr(0, static_cast<std::size_t>(digits)));
-    EXPECT_EQ(make_collision_log(article_blocks(digits))->last(), expected);
+    EXPECT_EQ(make_pair_log(article_blocks(digits))->last(), expected);
     EXPECT_EQ(count_collisions(article_blocks(digits)), expected);
   }
   EXPECT_TRUE(count_collisions(article_blocks(2000)).get_str().starts_with(kDigitsOfPi));
@@ -160,7 +160,7 @@ TEST(Count, FollowsTheConventionAtCorners) {
   EXPECT_EQ(total({"100", "3/2", "0", "-1", "-1"}), 31);
   // Both gaps closed, red pushing: everything happens at time 0.
   EXPECT_EQ(total({"100", "0", "0", "0", "-1"}), 31);
-  EXPECT_EQ(make_collision_log(Start{"100", "0", "0", "0", "-1"}.system())->blocks_at(0).count, 31);
+  EXPECT_EQ(make_pair_log(Start{"100", "0", "0", "0", "-1"}.system())->blocks_at(0).count, 31);
 }
 
 TEST(Count, KnowsStartsInContact) {
@@ -172,7 +172,7 @@ TEST(Count, KnowsStartsInContact) {
 
 TEST(Flights, AreHalfOpen) {
   // The blocks meet at t = 2/(3/10) = 20/3, a time that no double can hold.
-  const auto log = make_collision_log(Start{"100", "3/2", "2", "0", "-0.3"}.system());
+  const auto log = make_pair_log(Start{"100", "3/2", "2", "0", "-0.3"}.system());
   const Rational meeting(20, 3);
   EXPECT_EQ(log->blocks_at(meeting).count, 1);
   EXPECT_EQ(log->blocks_at(meeting - parse_rational("1e-40")).count, 0);
@@ -180,13 +180,11 @@ TEST(Flights, AreHalfOpen) {
 }
 
 TEST(Flights, CountACollisionAtTimeZero) {
-  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "-1"}.system())->blocks_at(0).count,
-            1);
-  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "1"}.system())->blocks_at(0).count, 0);
-  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "-1", "0"}.system())->blocks_at(0).count, 1);
-  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "1", "0"}.system())->blocks_at(0).count, 0);
-  EXPECT_EQ(make_collision_log(Start{"0.5", "3/2", "0", "0", "-1"}.system())->blocks_at(0).count,
-            1);
+  EXPECT_EQ(make_pair_log(Start{"100", "3/2", "0", "0", "-1"}.system())->blocks_at(0).count, 1);
+  EXPECT_EQ(make_pair_log(Start{"100", "3/2", "0", "0", "1"}.system())->blocks_at(0).count, 0);
+  EXPECT_EQ(make_pair_log(Start{"100", "0", "2", "-1", "0"}.system())->blocks_at(0).count, 1);
+  EXPECT_EQ(make_pair_log(Start{"100", "0", "2", "1", "0"}.system())->blocks_at(0).count, 0);
+  EXPECT_EQ(make_pair_log(Start{"0.5", "3/2", "0", "0", "-1"}.system())->blocks_at(0).count, 1);
 }
 
 // The rounding of an engine must not carry the first collision past time 0, nor away from it.
@@ -198,8 +196,8 @@ TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
         Start{"100", "1/3", "0", "34/19", "-8/9"}, Start{"31", "56/22", "0", "0", "-1/2"},
         Start{"7", "0", "2/7", "1/3", "-1/3"}, Start{"37", "35/12", "0", "-35", "-3/5"}}) {
     const TwoBlocks system = start.system();
-    const auto exact = make_collision_log(system);
-    const auto log = make_collision_log(system, Engine::events);
+    const auto exact = make_pair_log(system);
+    const auto log = make_pair_log(system, Engine::events);
     EXPECT_EQ(log->blocks_at(0).count, exact->blocks_at(0).count) << start.ratio;
     EXPECT_EQ(log->first_index(), exact->first_index()) << start.ratio;
     EXPECT_TRUE(log->last() == 0 || log->blocks_collision(1).time.hi >= 0) << start.ratio;
@@ -209,12 +207,12 @@ TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
 
 TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
-    const auto log = make_collision_log(article_blocks(3), engine);
+    const auto log = make_pair_log(article_blocks(3), engine);
     EXPECT_NEAR(log->blocks_at(-1000).red.position, 1005, 1e-10);
     EXPECT_NEAR(log->blocks_at(-1000).blue.position, 2, 1e-10);
-    const BlockState last = state_after(*log, 314);
+    const PairState last = state_after(*log, 314);
     const double duration = 1000 - log->blocks_collision(314).time.hi;
-    const BlockState later = log->blocks_at(1000);
+    const PairState later = log->blocks_at(1000);
     EXPECT_NEAR(later.blue.position, last.blue.position + duration * last.blue.velocity, 1e-9);
     EXPECT_NEAR(later.red.position, last.red.position + duration * last.red.velocity, 1e-9);
   }
@@ -223,7 +221,7 @@ TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
 TEST(Flights, CountBackwardsBeforeTimeZero) {
   // Blue comes off the wall, which it must have met before.
   for (const char* ratio : {"100", "1", "0.5"}) {
-    const auto log = make_collision_log(Start{ratio, "1", "3", "1", "-1"}.system());
+    const auto log = make_pair_log(Start{ratio, "1", "3", "1", "-1"}.system());
     EXPECT_EQ(log->blocks_at(0).count, 0) << ratio;
     EXPECT_EQ(log->blocks_at(Rational(-3, 2)).count, -1) << ratio;
     EXPECT_NEAR(log->blocks_at(Rational(-3, 2)).blue.position, 1, 1e-14) << ratio;
@@ -233,10 +231,10 @@ TEST(Flights, CountBackwardsBeforeTimeZero) {
 
 TEST(Log, AlternatesAndBeginsWithTheBlocks) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
-    const auto log = make_collision_log(article_blocks(3), engine);
+    const auto log = make_pair_log(article_blocks(3), engine);
     double before = 0;
     for (long k = 1; k <= 314; ++k) {
-      const Collision c = log->blocks_collision(k);
+      const PairCollision c = log->blocks_collision(k);
       EXPECT_EQ(c.index, k);
       EXPECT_EQ(c.kind, k % 2 == 1 ? CollisionKind::blocks : CollisionKind::wall);
       EXPECT_GT(c.time.hi, before);
@@ -252,7 +250,7 @@ TEST(Log, AlternatesAndBeginsWithTheBlocks) {
 }
 
 /// Collision k of both to `tolerance`.
-void expect_same(const Collision& a, const Collision& b, double tolerance) {
+void expect_same(const PairCollision& a, const PairCollision& b, double tolerance) {
   SCOPED_TRACE("collision " + a.index.get_str());
   EXPECT_EQ(a.index, b.index);
   EXPECT_EQ(a.kind, b.kind);
@@ -266,8 +264,8 @@ void expect_same(const Collision& a, const Collision& b, double tolerance) {
 
 TEST(Log, EnginesAgree) {
   for (int digits = 1; digits <= 5; ++digits) {
-    const auto unfolded = make_collision_log(article_blocks(digits), Engine::unfolded);
-    const auto stepped = make_collision_log(article_blocks(digits), Engine::events);
+    const auto unfolded = make_pair_log(article_blocks(digits), Engine::unfolded);
+    const auto stepped = make_pair_log(article_blocks(digits), Engine::events);
     ASSERT_EQ(unfolded->last(), stepped->last());
     for (long k = 1; k <= unfolded->last(); ++k) {
       expect_same(unfolded->blocks_collision(k), stepped->blocks_collision(k), 1e-8);
@@ -281,9 +279,9 @@ TEST(Log, EnginesAgree) {
 TEST(Log, KeepsAHairBetweenTheMasses) {
   TwoBlocks system = article_blocks(1);
   system.red.mass = 1 + 1 / power(2, 300);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->last(), 4);
-  const Collision last = log->blocks_collision(4);
+  const PairCollision last = log->blocks_collision(4);
   EXPECT_EQ(last.kind, CollisionKind::wall);
   EXPECT_GT(last.time.hi, 1e89);
   EXPECT_LT(last.time.hi, 1e92);
@@ -296,8 +294,8 @@ TEST(Log, EnginesAgreeOnEveryKindOfStart) {
         Start{"0.5", "1", "3", "1", "-1"}, Start{"1", "3/2", "2", "0", "-1"},
         Start{"100", "3/2", "0", "-1", "-1"}, Start{"100", "0", "0", "0", "-1"},
         Start{"100", "3/2", "2", "0", "1"}, Start{"7", "0", "2", "-1", "-1/3"}}) {
-    const auto unfolded = make_collision_log(start.system());
-    const auto stepped = make_collision_log(start.system(), Engine::events);
+    const auto unfolded = make_pair_log(start.system());
+    const auto stepped = make_pair_log(start.system(), Engine::events);
     ASSERT_EQ(unfolded->last(), stepped->last());
     for (long k = 1; k <= unfolded->last(); ++k) {
       expect_same(unfolded->blocks_collision(k), stepped->blocks_collision(k), 1e-13);
@@ -306,7 +304,7 @@ TEST(Log, EnginesAgreeOnEveryKindOfStart) {
 }
 
 /// The row of a batch as the collision that at() gives.
-Collision row_of(const CollisionBatch& batch, std::size_t row) {
+PairCollision row_of(const PairBatch& batch, std::size_t row) {
   return {batch.first + static_cast<unsigned long>(row),
           {batch.time_hi[row], batch.time_lo[row]},
           batch.kind[row],
@@ -315,8 +313,8 @@ Collision row_of(const CollisionBatch& batch, std::size_t row) {
 }
 
 /// The stream from `first` to `last` has exactly the collisions of at(), to a few ulp.
-void expect_streamed(const CollisionLog& log, const Integer& first, const Integer& last) {
-  const auto batch = std::make_unique<CollisionBatch>();
+void expect_streamed(const PairLog& log, const Integer& first, const Integer& last) {
+  const auto batch = std::make_unique<PairBatch>();
   const auto stream = log.stream(first, last);
   Integer next = first;
   while (stream->read(*batch)) {
@@ -335,10 +333,10 @@ void expect_streamed(const CollisionLog& log, const Integer& first, const Intege
 TEST(Stream, HasEveryCollisionOfAnyRange) {
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
     for (const int digits : {1, 2, 3, 4}) {
-      const auto log = make_collision_log(article_blocks(digits), engine);
+      const auto log = make_pair_log(article_blocks(digits), engine);
       expect_streamed(*log, 1, log->last());
     }
-    const auto log = make_collision_log(article_blocks(4), engine);
+    const auto log = make_pair_log(article_blocks(4), engine);
     for (const long first : {1L, 2L, 63L, 64L, 1500L, 1571L, 2000L, 3141L}) {
       for (const long length : {0L, 1L, 2L, 63L, 64L, 65L, 511L, 513L, 1000L}) {
         expect_streamed(*log, first, std::min<Integer>(log->last(), first + length - 1));
@@ -349,7 +347,7 @@ TEST(Stream, HasEveryCollisionOfAnyRange) {
 
 TEST(Stream, StartsAnywhereInALogOfAnySize) {
   for (const int digits : {9, 16, 20, 40, 150}) {
-    const auto log = make_collision_log(article_blocks(digits));
+    const auto log = make_pair_log(article_blocks(digits));
     const Integer middle = log->last() / 2;
     for (const Integer& first : {Integer(1), Integer(middle - 700), Integer(log->last() - 1200)}) {
       expect_streamed(*log, first, first + 1100);
@@ -361,7 +359,7 @@ TEST(Stream, KnowsMirroredAndLightSystems) {
   for (const Start& start :
        {Start{"1000", "0", "3/2", "-1", "-1"}, Start{"0.5", "1", "3", "1", "-1"},
         Start{"100", "3/2", "0", "-1", "-1"}, Start{"100", "3/2", "2", "0", "0"}}) {
-    const auto log = make_collision_log(start.system());
+    const auto log = make_pair_log(start.system());
     expect_streamed(*log, 1, log->last());
   }
 }
@@ -369,7 +367,7 @@ TEST(Stream, KnowsMirroredAndLightSystems) {
 TEST(Log, RefusesInvalidSystems) {
   TwoBlocks overlapping;
   overlapping.red.position = Rational(29, 10);
-  EXPECT_THROW(make_collision_log(overlapping), SceneError);
+  EXPECT_THROW(make_pair_log(overlapping), SceneError);
   EXPECT_THROW(count_collisions(overlapping), SceneError);
   EXPECT_THROW(article_blocks(0), UsageError);
   EXPECT_THROW(article_blocks(kMaxDigits + 1), UsageError);
@@ -378,12 +376,12 @@ TEST(Log, RefusesInvalidSystems) {
 }
 
 TEST(Log, RefusesToStoreTooMuch) {
-  EXPECT_THROW(make_collision_log(article_blocks(8), Engine::events), UsageError);
+  EXPECT_THROW(make_pair_log(article_blocks(8), Engine::events), UsageError);
 }
 
 TEST(Log, RefusesRatiosBeyondItsRange) {
-  EXPECT_THROW(make_collision_log(article_blocks(400)), UsageError);
-  EXPECT_EQ(make_collision_log(article_blocks(300))->last().get_str().size(), 300u);
+  EXPECT_THROW(make_pair_log(article_blocks(400)), UsageError);
+  EXPECT_EQ(make_pair_log(article_blocks(300))->last().get_str().size(), 300u);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST(DiscCertainty, WhatIsCertainOfRandomSystemsIsTrue) {
 TEST(DiscCertainty, WhatIsCertainInCellsIsTrue) {
   Random random(8);
   SCOPED_TRACE(random.trace());
-  BodySystem system = random_gas(random, 25);
+  System system = random_gas(random, 25);
   system.walls = box(46, 16);
   system.bodies.push_back({Rational(100), {20, 7}, {Rational(-1, 9), 0}, 6});
   system.bodies.push_back({std::nullopt, {40, 5}, {0, 0}, 2});

@@ -14,7 +14,7 @@ namespace piblocks {
 namespace {
 
 /// To the last bit.
-void expect_same_steps(const BodySystem& system, int number) {
+void expect_same_steps(const System& system, int number) {
   const auto fast = make_disc_stepper(system, discs::Search::cells);
   const auto plain = make_disc_stepper(system, discs::Search::all_pairs);
   for (int k = 0; k < number; ++k) {
@@ -31,7 +31,7 @@ void expect_same_steps(const BodySystem& system, int number) {
 }
 
 /// Makes room in the middle for a disc.
-void put_into(BodySystem& system, const Body& large) {
+void put_into(System& system, const Body& large) {
   std::erase_if(system.bodies, [&](const Body& body) {
     const Rational x = body.position[0] - large.position[0];
     const Rational y = body.position[1] - large.position[1];
@@ -53,7 +53,7 @@ TEST(DiscSearch, CellsFindWhatAllPairsFind) {
 TEST(DiscSearch, LargeDiscsAreFoundInTheirZones) {
   Random random(32);
   SCOPED_TRACE(random.trace());
-  BodySystem system = random_gas(random, 400);
+  System system = random_gas(random, 400);
   put_into(system, {Rational(200), {25, 25}, {Rational(1, 3), Rational(-1, 7)}, 9});
   put_into(system, {std::nullopt, {10, 40}, {0, 0}, 6});
   put_into(system, {Rational(50), {40, 40}, {Rational(-1), Rational(-1)}, 5});
@@ -65,7 +65,7 @@ TEST(DiscSearch, LargeDiscsAreFoundInTheirZones) {
 TEST(DiscSearch, DiscsThatLeaveTheGridAreFound) {
   Random random(33);
   SCOPED_TRACE(random.trace());
-  BodySystem system = random_gas(random, 100);
+  System system = random_gas(random, 100);
   system.walls = {{"left", {-300, 0}, {1, 0}},
                   {"right", {500, 0}, {-1, 0}},
                   {"bottom", {0, -200}, {1, 20}},
@@ -76,7 +76,7 @@ TEST(DiscSearch, DiscsThatLeaveTheGridAreFound) {
 TEST(DiscSearch, DiscsAtRestAndImmovableOnesAreFound) {
   Random random(34);
   SCOPED_TRACE(random.trace());
-  BodySystem system = random_gas(random, 120);
+  System system = random_gas(random, 120);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     if (i % 7 == 3) system.bodies[i].mass.reset();
     if (i % 10 != 0 || i % 7 == 3) system.bodies[i].velocity = {0, 0};
@@ -87,20 +87,20 @@ TEST(DiscSearch, DiscsAtRestAndImmovableOnesAreFound) {
 TEST(DiscSearch, OrderOfListingDoesNotMatter) {
   Random random(35);
   SCOPED_TRACE(random.trace());
-  const BodySystem system = random_gas(random, 60);
+  const System system = random_gas(random, 60);
   std::vector<std::uint32_t> places(system.bodies.size());
   std::iota(places.begin(), places.end(), 0u);
   for (std::size_t i = places.size(); --i > 0;) {
     std::swap(places[i],
               places[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i)))]);
   }
-  BodySystem shuffled = system;
+  System shuffled = system;
   for (std::size_t i = 0; i < places.size(); ++i) shuffled.bodies[places[i]] = system.bodies[i];
   const auto ordered_stepper = make_disc_stepper(system);
   const auto shuffled_stepper = make_disc_stepper(shuffled);
   for (int k = 0; k < 3000; ++k) {
-    const BodyStep a = *ordered_stepper->step();
-    BodyStep b = *shuffled_stepper->step();
+    const SteppedCollision a = *ordered_stepper->step();
+    SteppedCollision b = *shuffled_stepper->step();
     ASSERT_EQ(a.time, b.time) << "collision " << k;
     if (a.second >= places.size()) {
       ASSERT_EQ(b.first, places[a.first]);
@@ -124,7 +124,7 @@ TEST(DiscSearch, GeneralEngineFindsTheSame) {
   SCOPED_TRACE(random.trace());
   int collisions = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    BodySystem system = random_gas(random, 20);
+    System system = random_gas(random, 20);
     system.walls.clear();
     std::vector<Particle<double, 2>> balls;
     for (Body& body : system.bodies) {
@@ -152,7 +152,7 @@ TEST(DiscSearch, GeneralEngineFindsTheSame) {
 TEST(DiscSearch, TenThousandDiscsKeepTheirEnergy) {
   Random random(37);
   SCOPED_TRACE(random.trace());
-  const BodySystem system = random_gas(random, 10'000);
+  const System system = random_gas(random, 10'000);
   const auto energy_of = [&](std::size_t body, const std::array<double, 2>& v) {
     return system.bodies[body].mass->get_d() * (v[0] * v[0] + v[1] * v[1]) / 2;
   };

@@ -18,12 +18,12 @@ constexpr double kForEver = Certainty::kForEver;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-Pair pair_of(const BodyStep& step) { return {step.first, step.second}; }
+Pair pair_of(const SteppedCollision& step) { return {step.first, step.second}; }
 
 /// All bodies as last reported.
 class Motions {
  public:
-  explicit Motions(const BodySystem& system) : system_(system) {
+  explicit Motions(const System& system) : system_(system) {
     for (const Body& body : system.bodies) {
       motions_.push_back({{body.position[0].get_d(), body.position[1].get_d()},
                           {body.velocity[0].get_d(), body.velocity[1].get_d()}});
@@ -31,15 +31,15 @@ class Motions {
     }
   }
 
-  void take(const BodyStep& step) {
+  void take(const SteppedCollision& step) {
     take(step.first, step.first_after, step.time.hi);
     if (step.second < motions_.size()) take(step.second, step.second_after, step.time.hi);
   }
 
-  const BodyMotion& operator[](std::size_t body) const { return motions_[body]; }
+  const Motion& operator[](std::size_t body) const { return motions_[body]; }
 
   std::array<double, 2> position_at(std::size_t body, double time) const {
-    const BodyMotion& motion = motions_[body];
+    const Motion& motion = motions_[body];
     const double flight = time - times_[body];
     return {motion.position[0] + flight * motion.velocity[0],
             motion.position[1] + flight * motion.velocity[1]};
@@ -60,13 +60,13 @@ class Motions {
   }
 
  private:
-  void take(std::size_t body, const BodyMotion& motion, double time) {
+  void take(std::size_t body, const Motion& motion, double time) {
     motions_[body] = motion;
     times_[body] = time;
   }
 
-  const BodySystem& system_;
-  std::vector<BodyMotion> motions_ = {};
+  const System& system_;
+  std::vector<Motion> motions_ = {};
   std::vector<double> times_ = {};
 };
 
@@ -75,11 +75,11 @@ double square(const std::array<double, 2>& v) { return v[0] * v[0] + v[1] * v[1]
 TEST(DiscStepper, CollisionsKeepMomentumAndEnergy) {
   Random random(41);
   SCOPED_TRACE(random.trace());
-  const BodySystem system = random_gas(random, 50);
+  const System system = random_gas(random, 50);
   const auto stepper = make_disc_stepper(system);
   Motions motions(system);
   for (int k = 0; k < 5000; ++k) {
-    const BodyStep step = *stepper->step();
+    const SteppedCollision step = *stepper->step();
     if (step.second >= system.bodies.size()) {
       ASSERT_EQ(square(step.first_after.velocity), square(motions[step.first].velocity));
       motions.take(step);
@@ -106,13 +106,13 @@ TEST(DiscStepper, DiscsOverlapAtNoTime) {
   Random random(42);
   SCOPED_TRACE(random.trace());
   for (const std::uint32_t number : {5u, 40u}) {
-    const BodySystem system = random_gas(random, number, 4);
+    const System system = random_gas(random, number, 4);
     const auto stepper = make_disc_stepper(system);
     Motions motions(system);
     double last = 0;
     double least = kForEver;
     for (int k = 0; k < 1200; ++k) {
-      const BodyStep step = *stepper->step();
+      const SteppedCollision step = *stepper->step();
       for (const double share : {0.25, 0.5, 0.75, 1.0}) {
         least = std::min(least, motions.least_gap(last + share * (step.time.hi - last)));
       }
@@ -125,22 +125,21 @@ TEST(DiscStepper, DiscsOverlapAtNoTime) {
 }
 
 TEST(DiscStepper, HeadOnEqualDiscsExchangeTheirVelocities) {
-  const BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {5, 0}, {0, 0}}}};
+  const System system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {5, 0}, {0, 0}}}};
   const auto stepper = make_disc_stepper(system);
   const auto step = stepper->step();
   ASSERT_TRUE(step);
   EXPECT_EQ(pair_of(*step), Pair(0, 1));
   EXPECT_EQ(step->time.hi, 3);
-  EXPECT_EQ(step->first_after, (BodyMotion{{3, 0}, {0, 0}}));
-  EXPECT_EQ(step->second_after, (BodyMotion{{5, 0}, {1, 0}}));
+  EXPECT_EQ(step->first_after, (Motion{{3, 0}, {0, 0}}));
+  EXPECT_EQ(step->second_after, (Motion{{5, 0}, {1, 0}}));
   EXPECT_FALSE(stepper->step());
   EXPECT_EQ(stepper->certainty().until, kForEver);
 }
 
 /// Centres at a 3-4-5 triangle: at contact the line of centres is (0.8, 0.6).
 TEST(DiscStepper, ObliqueCollisionChangesVelocitiesAlongTheLineOfCentres) {
-  const BodySystem system{.dimensions = 2,
-                          .bodies = {{3, {-4, 0}, {1, 0}, 3}, {1, {4, 3}, {0, 0}, 2}}};
+  const System system{.dimensions = 2, .bodies = {{3, {-4, 0}, {1, 0}, 3}, {1, {4, 3}, {0, 0}, 2}}};
   const auto stepper = make_disc_stepper(system);
   const auto step = stepper->step();
   ASSERT_TRUE(step);
@@ -152,9 +151,9 @@ TEST(DiscStepper, ObliqueCollisionChangesVelocitiesAlongTheLineOfCentres) {
 }
 
 TEST(DiscStepper, SlantedWallReflects) {
-  const BodySystem system{.dimensions = 2,
-                          .bodies = {{1, {0, 3}, {0, -1}}},
-                          .walls = {{"slope", {7, -7}, {Rational(1, 9), Rational(1, 9)}}}};
+  const System system{.dimensions = 2,
+                      .bodies = {{1, {0, 3}, {0, -1}}},
+                      .walls = {{"slope", {7, -7}, {Rational(1, 9), Rational(1, 9)}}}};
   const auto stepper = make_disc_stepper(system);
   const auto step = stepper->step();
   ASSERT_TRUE(step);
@@ -166,7 +165,7 @@ TEST(DiscStepper, SlantedWallReflects) {
 }
 
 TEST(DiscStepper, ImmovableDiscStays) {
-  const BodySystem system{
+  const System system{
       .dimensions = 2,
       .bodies = {{std::nullopt, {0, 0}}, {1, {5, 0}, {-1, 0}}, {std::nullopt, {9, 0}}}};
   const auto stepper = make_disc_stepper(system);
@@ -175,15 +174,15 @@ TEST(DiscStepper, ImmovableDiscStays) {
     ASSERT_TRUE(step);
     EXPECT_EQ(pair_of(*step), k % 2 == 0 ? Pair(0, 1) : Pair(1, 2));
     EXPECT_EQ(step->time.hi, 3 + 5 * k);
-    const BodyMotion& still = k % 2 == 0 ? step->first_after : step->second_after;
-    EXPECT_EQ(still, (BodyMotion{{k % 2 == 0 ? 0.0 : 9.0, 0}, {0, 0}}));
+    const Motion& still = k % 2 == 0 ? step->first_after : step->second_after;
+    EXPECT_EQ(still, (Motion{{k % 2 == 0 ? 0.0 : 9.0, 0}, {0, 0}}));
   }
 }
 
 TEST(DiscStepper, OneDiscInABoxIsCertainForLong) {
-  const BodySystem system{.dimensions = 2,
-                          .bodies = {{1, {Rational(3, 2), 2}, {1, Rational(1, 3)}}},
-                          .walls = box(4, 5)};
+  const System system{.dimensions = 2,
+                      .bodies = {{1, {Rational(3, 2), 2}, {1, Rational(1, 3)}}},
+                      .walls = box(4, 5)};
   const auto stepper = make_disc_stepper(system);
   int across = 0;
   int up = 0;
@@ -201,17 +200,17 @@ TEST(DiscStepper, OneDiscInABoxIsCertainForLong) {
 }
 
 TEST(DiscStepper, NothingHappensToDiscsAtRest) {
-  BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}}, {2, {2, 0}}, {1, {7, 1}}}};
+  System system{.dimensions = 2, .bodies = {{1, {0, 0}}, {2, {2, 0}}, {1, {7, 1}}}};
   system.walls = {{"touching", {0, -1}, {0, 1}}};
   const auto stepper = make_disc_stepper(system);
   EXPECT_FALSE(stepper->step());
   EXPECT_FALSE(stepper->step());
   EXPECT_EQ(stepper->certainty().until, kForEver);
-  EXPECT_FALSE(make_disc_stepper(BodySystem{.dimensions = 2})->step());
+  EXPECT_FALSE(make_disc_stepper(System{.dimensions = 2})->step());
 }
 
 TEST(DiscStepper, TouchingDiscsThatApproachCollideAtOnce) {
-  const BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {2, 0}, {-1, 0}}}};
+  const System system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {2, 0}, {-1, 0}}}};
   const auto stepper = make_disc_stepper(system);
   const auto step = stepper->step();
   ASSERT_TRUE(step);
@@ -221,7 +220,7 @@ TEST(DiscStepper, TouchingDiscsThatApproachCollideAtOnce) {
 }
 
 TEST(DiscStepper, TouchingDiscsThatPartDoNotCollide) {
-  const BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {-1, 0}}, {1, {2, 0}, {1, 0}}}};
+  const System system{.dimensions = 2, .bodies = {{1, {0, 0}, {-1, 0}}, {1, {2, 0}, {1, 0}}}};
   const auto stepper = make_disc_stepper(system);
   EXPECT_FALSE(stepper->step());
   EXPECT_EQ(stepper->certainty().until, kForEver);
@@ -229,8 +228,8 @@ TEST(DiscStepper, TouchingDiscsThatPartDoNotCollide) {
 
 /// A billiard rack is certain until it is struck: then what happens is a matter of order.
 TEST(DiscStepper, TouchingDiscsAtRestAreCertainUntilStruck) {
-  const BodySystem system{.dimensions = 2,
-                          .bodies = {{1, {0, 0}, {2, 0}}, {1, {5, 0}}, {1, {7, 0}}, {1, {9, 0}}}};
+  const System system{.dimensions = 2,
+                      .bodies = {{1, {0, 0}, {2, 0}}, {1, {5, 0}}, {1, {7, 0}}, {1, {9, 0}}}};
   const auto stepper = make_disc_stepper(system);
   EXPECT_EQ(stepper->certainty().until, kForEver);
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -244,13 +243,13 @@ TEST(DiscStepper, TouchingDiscsAtRestAreCertainUntilStruck) {
 }
 
 TEST(DiscStepper, SimultaneousCollisionsAreInTheOrderOfPairs) {
-  const BodySystem system{.dimensions = 2,
-                          .bodies = {{1, {20, 0}, {1, 0}},
-                                     {1, {0, 0}, {1, 0}},
-                                     {1, {10, 0}, {-1, 0}},
-                                     {1, {26, 0}, {-1, 0}},
-                                     {1, {5, 0}}},
-                          .walls = {{"right", {30, 0}, {-1, 0}}}};
+  const System system{.dimensions = 2,
+                      .bodies = {{1, {20, 0}, {1, 0}},
+                                 {1, {0, 0}, {1, 0}},
+                                 {1, {10, 0}, {-1, 0}},
+                                 {1, {26, 0}, {-1, 0}},
+                                 {1, {5, 0}}},
+                      .walls = {{"right", {30, 0}, {-1, 0}}}};
   const auto stepper = make_disc_stepper(system);
   std::vector<Pair> pairs;
   for (int k = 0; k < 3; ++k) pairs.push_back(pair_of(*stepper->step()));
@@ -262,10 +261,10 @@ TEST(DiscStepper, SimultaneousCollisionsAreInTheOrderOfPairs) {
 }
 
 TEST(DiscStepper, WallsComeAfterDiscs) {
-  const BodySystem system{.dimensions = 2,
-                          .bodies = {{1, {0, 0}, {0, 0}}, {1, {5, 0}, {-1, -1}}},
-                          .walls = {{"bottom", {0, -4}, {0, 1}}, {"left", {1, 0}, {1, 0}}}};
-  BodySystem corner = system;
+  const System system{.dimensions = 2,
+                      .bodies = {{1, {0, 0}, {0, 0}}, {1, {5, 0}, {-1, -1}}},
+                      .walls = {{"bottom", {0, -4}, {0, 1}}, {"left", {1, 0}, {1, 0}}}};
+  System corner = system;
   corner.bodies[0].position = {20, 20};
   const auto stepper = make_disc_stepper(corner);
   EXPECT_EQ(pair_of(*stepper->step()), Pair(1, 2));
@@ -275,8 +274,8 @@ TEST(DiscStepper, WallsComeAfterDiscs) {
 TEST(DiscStepper, PowersOfTwoScaleEverythingExactly) {
   Random random(43);
   SCOPED_TRACE(random.trace());
-  const BodySystem system = random_gas(random, 30);
-  BodySystem scaled = system;
+  const System system = random_gas(random, 30);
+  System scaled = system;
   const Rational length = Rational(1) << 300;
   const Rational speed = Rational(1) >> 200;
   for (Body& body : scaled.bodies) {
@@ -291,8 +290,8 @@ TEST(DiscStepper, PowersOfTwoScaleEverythingExactly) {
   const auto plain = make_disc_stepper(system);
   const auto large = make_disc_stepper(scaled);
   for (int k = 0; k < 1000; ++k) {
-    const BodyStep a = *plain->step();
-    const BodyStep b = *large->step();
+    const SteppedCollision a = *plain->step();
+    const SteppedCollision b = *large->step();
     ASSERT_EQ(pair_of(a), pair_of(b));
     ASSERT_EQ(std::ldexp(a.time.hi, 500), b.time.hi);
     ASSERT_EQ(std::ldexp(a.first_after.position[0], 300), b.first_after.position[0]);
@@ -303,8 +302,8 @@ TEST(DiscStepper, PowersOfTwoScaleEverythingExactly) {
 
 TEST(DiscStepper, HugeAndTinyNumbersAreAsGoodAsOthers) {
   for (const Rational& scale : {power(10, 150), Rational(1 / power(10, 150))}) {
-    BodySystem system{.dimensions = 2,
-                      .bodies = {{scale, {-4, 0}, {1, 0}, 3}, {3 * scale, {4, 3}, {-1, 0}, 2}}};
+    System system{.dimensions = 2,
+                  .bodies = {{scale, {-4, 0}, {1, 0}, 3}, {3 * scale, {4, 3}, {-1, 0}, 2}}};
     for (Body& body : system.bodies) {
       body.size *= scale;
       for (Rational& part : body.position) part *= scale;
@@ -322,7 +321,7 @@ TEST(DiscStepper, HugeAndTinyNumbersAreAsGoodAsOthers) {
 }
 
 TEST(DiscStepper, NumbersTooFarApartAreRejected) {
-  BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {5, 0}}}};
+  System system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {5, 0}}}};
   system.bodies[1].mass = 1 / power(10, 300);
   EXPECT_THROW(make_disc_stepper(system), SimulationError);
   system.bodies[1].mass = 1;

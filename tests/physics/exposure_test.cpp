@@ -3,7 +3,7 @@
 #include "physics/exposure.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array kBlocks = {BlockName::blue, BlockName::red};
 
-double position_of(const BlockState& state, BlockName block) {
+double position_of(const PairState& state, BlockName block) {
   return block == BlockName::blue ? state.blue.position : state.red.position;
 }
 
@@ -62,7 +62,7 @@ class DirectSum {
   }
 
   /// Where red turns it is so slow that the rounding of a position is a noticeable share of time.
-  void expect_same(const Exposure& exposure) const {
+  void expect_same(const PairExposure& exposure) const {
     const Travel range = exposure.range(block_);
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       SCOPED_TRACE(positions_[i]);
@@ -83,14 +83,13 @@ class DirectSum {
   long double total_ = 0;
 };
 
-void expect_the_sum_of_all_flights(const CollisionLog& log, const Rational& begin,
-                                   const Rational& end) {
+void expect_the_sum_of_all_flights(const PairLog& log, const Rational& begin, const Rational& end) {
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const Exposure exposure = expose(log, begin, end);
+  const PairExposure exposure = expose(log, begin, end);
   DirectSum blue(BlockName::blue, positions_in(exposure.blue_range));
   DirectSum red(BlockName::red, positions_in(exposure.red_range));
-  const BlockState first = log.blocks_at(begin);
-  const BlockState last = log.blocks_at(end);
+  const PairState first = log.blocks_at(begin);
+  const PairState last = log.blocks_at(end);
   Time now = to_time(begin);
   double blue_now = first.blue.position;
   double red_now = first.red.position;
@@ -103,7 +102,7 @@ void expect_the_sum_of_all_flights(const CollisionLog& log, const Rational& begi
     red_now = red_then;
   };
   const auto stream = log.stream(first.count + 1, last.count);
-  const auto batch = std::make_unique<CollisionBatch>();
+  const auto batch = std::make_unique<PairBatch>();
   while (stream->read(*batch)) {
     for (std::size_t i = 0; i < batch->size; ++i) {
       fly_to({batch->time_hi[i], batch->time_lo[i]}, batch->blue_position[i],
@@ -119,7 +118,7 @@ TEST(Exposure, IsTheSumOfAllFlights) {
   const Rational turn(7, 2);
   for (int digits = 1; digits <= 6; ++digits) {
     SCOPED_TRACE(digits);
-    const auto log = make_collision_log(article_blocks(digits));
+    const auto log = make_pair_log(article_blocks(digits));
     expect_the_sum_of_all_flights(*log, 0, 1);   // before the first collision
     expect_the_sum_of_all_flights(*log, 1, 2);   // the first
     expect_the_sum_of_all_flights(*log, 0, 10);  // all of them
@@ -132,28 +131,28 @@ TEST(Exposure, IsTheSumOfAllFlights) {
 }
 
 TEST(Exposure, IsTheSumOfMillionsOfFlights) {
-  const auto log = make_collision_log(article_blocks(8));
+  const auto log = make_pair_log(article_blocks(8));
   expect_the_sum_of_all_flights(*log, Rational(699, 200), Rational(701, 200));
 }
 
 TEST(Exposure, OfEveryEngineIsTheSumOfAllFlights) {
-  const auto log = make_collision_log(article_blocks(3), Engine::events);
+  const auto log = make_pair_log(article_blocks(3), Engine::events);
   expect_the_sum_of_all_flights(*log, 0, 10);
   expect_the_sum_of_all_flights(*log, Rational(17, 5), Rational(18, 5));
   TwoBlocks light;
   for (const Rational& mass : {Rational(1), Rational(1, 3), Rational(1, 1000)}) {
     light.red.mass = mass;
-    expect_the_sum_of_all_flights(*make_collision_log(light), 0, 100);
+    expect_the_sum_of_all_flights(*make_pair_log(light), 0, 100);
   }
 }
 
 /// The shares of two halves, weighted, are those of the whole.
-void expect_additive(const CollisionLog& log, const Rational& begin, const Rational& middle,
+void expect_additive(const PairLog& log, const Rational& begin, const Rational& middle,
                      const Rational& end) {
   SCOPED_TRACE(begin.get_str() + ", " + middle.get_str() + ", " + end.get_str());
-  const Exposure whole = expose(log, begin, end);
-  const Exposure early = expose(log, begin, middle);
-  const Exposure late = expose(log, middle, end);
+  const PairExposure whole = expose(log, begin, end);
+  const PairExposure early = expose(log, begin, middle);
+  const PairExposure late = expose(log, middle, end);
   const double weight = to_double((middle - begin) / (end - begin));
   for (const BlockName block : kBlocks) {
     for (const double position : positions_in(whole.range(block))) {
@@ -174,7 +173,7 @@ TEST(Exposure, IsAdditiveAtAnyNumberOfDigits) {
   SCOPED_TRACE(random.trace());
   for (const int digits : {1, 2, 3, 4, 6, 9, 14, 20, 60}) {
     SCOPED_TRACE(digits);
-    const auto log = make_collision_log(article_blocks(digits));
+    const auto log = make_pair_log(article_blocks(digits));
     for (int i = 0; i < 40; ++i) {
       const Rational begin = Rational(7, 2) - random.rational(-1, 3, 100'000) / (i % 4 * 100 + 1);
       const Rational length = random.rational(0, 1, 10'000) / (i % 3 * 100 + 1) + Rational(1, 9999);
@@ -184,7 +183,7 @@ TEST(Exposure, IsAdditiveAtAnyNumberOfDigits) {
 }
 
 /// The integral is 0 up to the range, rises ever faster in it, and by 1 for each unit above it.
-void expect_distribution(const Exposure& exposure) {
+void expect_distribution(const PairExposure& exposure) {
   for (const BlockName block : kBlocks) {
     const Travel range = exposure.range(block);
     EXPECT_NEAR(area_below(exposure, block, std::nextafter(range.from, -1e9)), 0, 1e-15);
@@ -208,13 +207,13 @@ void expect_distribution(const Exposure& exposure) {
 }
 
 /// As many instants as one likes say the same, to what their number leaves open.
-void expect_shares_of_instants(const CollisionLog& log, const Rational& begin, const Rational& end,
+void expect_shares_of_instants(const PairLog& log, const Rational& begin, const Rational& end,
                                Random& random) {
   constexpr int kInstants = 4000;
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const Exposure exposure = expose(log, begin, end);
+  const PairExposure exposure = expose(log, begin, end);
   expect_distribution(exposure);
-  std::vector<BlockState> states;
+  std::vector<PairState> states;
   for (int i = 0; i < kInstants; ++i) {
     const Rational at = (i + random.rational(0, 1, 1'000'000)) / kInstants;
     states.push_back(log.blocks_at(begin + at * (end - begin)));
@@ -224,7 +223,7 @@ void expect_shares_of_instants(const CollisionLog& log, const Rational& begin, c
     for (const double position : positions_in(range)) {
       double below = 0;
       double area = 0;
-      for (const BlockState& state : states) {
+      for (const PairState& state : states) {
         below += position_of(state, block) <= position + 1e-13 ? 1.0 / kInstants : 0;
         area += std::max(0.0, position - position_of(state, block)) / kInstants;
       }
@@ -241,7 +240,7 @@ TEST(Exposure, AgreesWithInstants) {
   SCOPED_TRACE(random.trace());
   for (const int digits : {1, 3, 5, 12, 20}) {
     SCOPED_TRACE(digits);
-    const auto log = make_collision_log(article_blocks(digits));
+    const auto log = make_pair_log(article_blocks(digits));
     const Rational turn(7, 2);
     expect_shares_of_instants(*log, 0, 1, random);
     expect_shares_of_instants(*log, Rational(3, 2), Rational(181, 120), random);
@@ -263,7 +262,7 @@ TEST(Exposure, BeforeTimeZeroRunsTheMotionBack) {
     late.blue.velocity = Rational(1, 3);
     for (const Engine engine : {Engine::unfolded, Engine::events}) {
       if (engine == Engine::events && mass > 100) continue;
-      const auto log = make_collision_log(late, engine);
+      const auto log = make_pair_log(late, engine);
       expect_shares_of_instants(*log, -10, 10, random);
       expect_shares_of_instants(*log, -2, -1, random);
     }
@@ -272,10 +271,10 @@ TEST(Exposure, BeforeTimeZeroRunsTheMotionBack) {
 
 TEST(Exposure, OfNoTimeIsTheInstant) {
   for (const int digits : {1, 3, 20}) {
-    const auto log = make_collision_log(article_blocks(digits));
+    const auto log = make_pair_log(article_blocks(digits));
     for (const Rational& time : {Rational(0), Rational(3, 2), Rational(7, 2), Rational(9)}) {
-      const Exposure exposure = expose(*log, time, time);
-      const BlockState state = log->blocks_at(time);
+      const PairExposure exposure = expose(*log, time, time);
+      const PairState state = log->blocks_at(time);
       ASSERT_EQ(exposure.pieces.size(), 1U);
       for (const BlockName block : kBlocks) {
         const double x = position_of(state, block);
@@ -289,9 +288,9 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
 
 TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
   for (const int digits : {1, 3, 9}) {
-    const auto log = make_collision_log(article_blocks(digits));
-    const Exposure forth = expose(*log, 3, 4);
-    const Exposure back = expose(*log, 4, 3);
+    const auto log = make_pair_log(article_blocks(digits));
+    const PairExposure forth = expose(*log, 3, 4);
+    const PairExposure back = expose(*log, 4, 3);
     for (const BlockName block : kBlocks) {
       for (const double position : positions_in(forth.range(block))) {
         EXPECT_EQ(area_below(forth, block, position), area_below(back, block, position));
@@ -303,17 +302,17 @@ TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
 TEST(Exposure, OfACornerPassesIt) {
   TwoBlocks system = article_blocks(5);
   system.blue.position = Rational(1, 2);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const Rational meeting = log->blocks_collision(1).time.hi;
-  const Exposure exposure = expose(*log, meeting - 1, meeting + 1);
+  const PairExposure exposure = expose(*log, meeting - 1, meeting + 1);
   EXPECT_FALSE(exposure.area_below);
   expect_distribution(exposure);
   EXPECT_NEAR(share_below(exposure, BlockName::red, 2), 0.5, 1e-9);
 }
 
 TEST(Exposure, OfManyCollisionsHasSlowBouncesBetweenTheSamePlaces) {
-  const auto log = make_collision_log(article_blocks(9));
-  const Exposure exposure = expose(*log, Rational(7, 2) - Rational(1, 120), Rational(7, 2));
+  const auto log = make_pair_log(article_blocks(9));
+  const PairExposure exposure = expose(*log, Rational(7, 2) - Rational(1, 120), Rational(7, 2));
   ASSERT_TRUE(exposure.area_below);
   for (const BlockName block : kBlocks) {
     const Travel range = exposure.range(block);

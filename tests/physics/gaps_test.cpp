@@ -1,6 +1,6 @@
 // Gaps to a relative error of a few roundings, where positions have lost them.
 #include <gtest/gtest.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,14 +42,13 @@ void expect_close(const Gaps& given, const ExactGaps& wanted) {
   EXPECT_LE(given.y1, given.y2);
 }
 
-void expect_gaps(const TwoBlocks& system, const CollisionLog& log, const Rational& time) {
+void expect_gaps(const TwoBlocks& system, const PairLog& log, const Rational& time) {
   SCOPED_TRACE("t = " + time.get_str());
   const auto state = oracle::high_precision_state(system, time, kExtraBits);
   expect_close(log.gaps_at(time), gaps_of(system, state.blue.position, state.red.position));
 }
 
-void expect_gaps_at_collision(const TwoBlocks& system, const CollisionLog& log,
-                              const Integer& index) {
+void expect_gaps_at_collision(const TwoBlocks& system, const PairLog& log, const Integer& index) {
   SCOPED_TRACE("collision " + index.get_str());
   const auto event = oracle::high_precision_collision(system, index, kExtraBits);
   const Gaps gaps = log.gaps_at_collision(index);
@@ -93,7 +92,7 @@ TEST(Gaps, AroundTheTurnAtAnyNumberOfDigits) {
         *x += digits % 4 == 0 ? Rational(-1, 2) : Rational(1'000'001, 3);
       }
     }
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     const Rational turn = turn_of(system).value();
     expect_gaps(system, *log, turn);
     for (const char* text : {"-3", "0", "1", "4", "6", "15"}) {
@@ -114,7 +113,7 @@ TEST(Gaps, JustAfterACollision) {
   for (int digits = 1; digits <= 20; ++digits) {
     SCOPED_TRACE(digits);
     const TwoBlocks system = article_blocks(digits);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     for (std::int64_t i = 0; i < many(10); ++i) {
       const Integer index = any_index(random, log->last());
       expect_gaps_at_collision(system, *log, index);
@@ -130,7 +129,7 @@ TEST(Gaps, OfRandomSystems) {
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(150); ++i) {
     const TwoBlocks system = random_system(random, -4, 40);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     for (int j = 0; j < 4; ++j) expect_gaps(system, *log, random.rational(-10, 20, 1000));
     expect_gaps(system, *log, turn_of(system).value());
     if (log->last() == 0) continue;
@@ -143,7 +142,7 @@ TEST(Gaps, BeforeAndAfterTheCorner) {
   TwoBlocks system = article_blocks(4);
   system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2;
   system.blue.velocity = system.red.velocity;
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   for (const char* text : {"0", "0.5", "1", "1.000000001", "2", "1000"}) {
     expect_gaps(system, *log, parse_rational(text));
   }
@@ -152,15 +151,15 @@ TEST(Gaps, BeforeAndAfterTheCorner) {
 TEST(Gaps, OfALightRedBlockAreExact) {
   TwoBlocks system = article_blocks(1);
   system.red.mass = Rational(1, 3);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   for (int i = 0; i < 40; ++i) expect_gaps(system, *log, Rational(i) / 7);
   for (Integer k = 1; k <= log->last(); ++k) expect_gaps_at_collision(system, *log, k);
 }
 
 TEST(Gaps, OfEnginesThatStepAreDifferencesOfPositions) {
   const TwoBlocks system = article_blocks(3);
-  const auto log = make_collision_log(system, Engine::events);
-  const auto exact = make_collision_log(system);
+  const auto log = make_pair_log(system, Engine::events);
+  const auto exact = make_pair_log(system);
   for (int i = 0; i < 200; ++i) {
     const Rational time = Rational(i) / 20;
     const Gaps gaps = log->gaps_at(time);

@@ -2,7 +2,7 @@
 // The turn then takes 1e39 s, or 1e300 s, while the next collision is seconds away.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -96,8 +96,8 @@ Rational speed_of(const TwoBlocks& system) {
 }
 
 void compare(const TwoBlocks& system, const oracle::ExactEvent& exact, const Rational& turn,
-             CollisionKind kind, const Rational& time, const Motion& blue, const Motion& red,
-             Worst& worst) {
+             CollisionKind kind, const Rational& time, const BlockMotion& blue,
+             const BlockMotion& red, Worst& worst) {
   EXPECT_EQ(kind, exact.kind);
   const auto note = [](double& most, double now) { most = std::max(most, now); };
   note(worst.time, quotient(time - exact.time, time_bound(exact.time, turn)));
@@ -120,7 +120,7 @@ void compare(const TwoBlocks& system, const oracle::ExactEvent& exact, const Rat
 }
 
 /// Indices of the first, the last, and of those in which the way to compute them may change.
-std::set<Integer> indices_of(Random& random, const TwoBlocks& system, const CollisionLog& log) {
+std::set<Integer> indices_of(Random& random, const TwoBlocks& system, const PairLog& log) {
   std::set<Integer> result;
   const auto add = [&](const Integer& middle, long reach) {
     for (Integer index = middle - reach; index <= middle + reach; ++index) {
@@ -153,7 +153,7 @@ TEST(HeavyRed, HasEveryCollisionInItsPlace) {
   SCOPED_TRACE(random.trace());
   Worst one_by_one;
   Worst streamed;
-  const auto batch = std::make_unique<CollisionBatch>();
+  const auto batch = std::make_unique<PairBatch>();
   for (int i = 0; i < 200 && !HasFailure(); ++i) {
     const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
@@ -161,12 +161,12 @@ TEST(HeavyRed, HasEveryCollisionInItsPlace) {
                  ", velocities " + system.blue.velocity.get_str() + ", " +
                  system.red.velocity.get_str());
     const Rational turn = turn_of(system).value();
-    const auto log = make_collision_log(system, Engine::unfolded);
+    const auto log = make_pair_log(system, Engine::unfolded);
     for (const Integer& index : indices_of(random, system, *log)) {
       SCOPED_TRACE("collision " + index.get_str());
       const oracle::ExactEvent exact = oracle::high_precision_collision(system, index, 2500);
       if (!is_in_range(exact.time)) continue;
-      const Collision one = log->blocks_collision(index);
+      const PairCollision one = log->blocks_collision(index);
       compare(system, exact, turn, one.kind, to_rational(one.time), one.blue, one.red, one_by_one);
 
       // In a block with others before or after it.
@@ -196,11 +196,11 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
     SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
                  ", velocities " + system.blue.velocity.get_str() + ", " +
                  system.red.velocity.get_str());
-    const auto log = make_collision_log(system, Engine::unfolded);
+    const auto log = make_pair_log(system, Engine::unfolded);
     for (int j = 0; j < 4; ++j) {
       const Rational time = random.rational(-10, 10, 1000);
       SCOPED_TRACE("t = " + time.get_str());
-      const BlockState given = log->blocks_at(time);
+      const PairState given = log->blocks_at(time);
       const oracle::ExactState exact = oracle::high_precision_state(system, time, 2500);
       EXPECT_EQ(given.count, exact.count);
       // What blue has travelled, and from where, is rounded; not how long the turn takes.
@@ -220,7 +220,7 @@ TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
     const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     const Rational turn = turn_of(system).value();
-    const auto log = make_collision_log(system, Engine::unfolded);
+    const auto log = make_pair_log(system, Engine::unfolded);
     for (const Integer& index : indices_of(random, system, *log)) {
       SCOPED_TRACE("from collision " + index.get_str());
       const Integer last = index + random.integer(0, 5);
@@ -281,10 +281,10 @@ TEST(HeavyRed, IsExposedAsLongAsItIsThere) {
     SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
                  ", velocities " + system.blue.velocity.get_str() + ", " +
                  system.red.velocity.get_str());
-    const auto log = make_collision_log(system, Engine::unfolded);
+    const auto log = make_pair_log(system, Engine::unfolded);
     const Rational begin = random.rational(0, 10, 1000);
     const Rational end = begin + random.rational(1, 20, 1000);
-    const Exposure exposure = expose(*log, begin, end);
+    const PairExposure exposure = expose(*log, begin, end);
     if (exposure.area_below) continue;
     const Travel range = exposure.blue_range;
     for (int j = 1; j < 5; ++j) {
@@ -302,7 +302,7 @@ TEST(HeavyRed, IsLeftAnInstantAfterTheTimeInItsLog) {
     const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     const Rational turn = turn_of(system).value();
-    const auto log = make_collision_log(system, Engine::unfolded);
+    const auto log = make_pair_log(system, Engine::unfolded);
     for (const Integer& index : {Integer(1), Integer(2), Integer(3), Integer(64), Integer(1000)}) {
       if (index > log->last()) continue;
       SCOPED_TRACE("collision " + index.get_str());

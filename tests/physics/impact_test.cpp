@@ -2,8 +2,8 @@
 #include "physics/impact.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/bodies.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/system.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cmath>
 #include <memory>
@@ -25,13 +25,13 @@ struct Moments {
 };
 
 /// Impulses in the unit of Impact: of the velocities just after a collision, which it turned round.
-Moments one_by_one(const TwoBlocks& system, const CollisionLog& log, CollisionKind kind,
+Moments one_by_one(const TwoBlocks& system, const PairLog& log, CollisionKind kind,
                    const Integer& first, const Integer& last, const Time& since) {
   const double r = to_double(system.blue.mass / system.red.mass);
   Moments sum;
   double moment = 0;
   for (Integer index = first; index <= last; ++index) {
-    const Collision c = log.blocks_collision(index);
+    const PairCollision c = log.blocks_collision(index);
     if (c.kind != kind) continue;
     const double speed = std::hypot(std::sqrt(r) * c.blue.velocity, c.red.velocity);
     const double blow = kind == CollisionKind::wall ? (1 + r) * std::fabs(c.blue.velocity)
@@ -44,7 +44,7 @@ Moments one_by_one(const TwoBlocks& system, const CollisionLog& log, CollisionKi
   return sum;
 }
 
-void expect_sum(const TwoBlocks& system, const CollisionLog& log, CollisionKind kind,
+void expect_sum(const TwoBlocks& system, const PairLog& log, CollisionKind kind,
                 const Integer& first, const Integer& last) {
   SCOPED_TRACE(first.get_str() + " to " + last.get_str());
   const Time since = first <= last ? log.blocks_collision(first).time : Time{};
@@ -77,7 +77,7 @@ TEST(Impact, IsTheSumOfItsCollisionsByEveryEngine) {
     SCOPED_TRACE("ratio " + system.red.mass.get_str());
     for (const Engine engine : {Engine::unfolded, Engine::events}) {
       if (corner_of(system) && engine == Engine::events) continue;  // has no order for them
-      const auto log = make_collision_log(system, engine);
+      const auto log = make_pair_log(system, engine);
       const Integer last = log->last();
       for (const CollisionKind kind : kKinds) {
         expect_sum(system, *log, kind, 1, last);
@@ -93,9 +93,9 @@ TEST(Impact, IsTheSumOfItsCollisionsByEveryEngine) {
 
 TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
   const TwoBlocks system = article_blocks(3);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   for (Integer index = 1; index <= log->last(); ++index) {
-    const Collision c = log->blocks_collision(index);
+    const PairCollision c = log->blocks_collision(index);
     const auto together = log->impact(c.kind, index, index);
     ASSERT_TRUE(together.has_value());
     EXPECT_EQ(together->time, c.time);
@@ -107,7 +107,7 @@ TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
 
 TEST(Impact, GoesOnBeforeTimeZero) {
   TwoBlocks system = article_blocks(3);
-  const auto whole = make_collision_log(system);
+  const auto whole = make_pair_log(system);
   // The same run, with time 0 in the middle of it.
   const oracle::ExactState start =
       oracle::exact_state(system, oracle::exact_run(system, 1000), parse_rational("3.49"));
@@ -115,7 +115,7 @@ TEST(Impact, GoesOnBeforeTimeZero) {
   system.blue = {system.blue.mass, start.blue.position, start.blue.velocity, system.blue.width};
   system.red = {system.red.mass, start.red.position, start.red.velocity, system.red.width};
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
-    const auto log = make_collision_log(system, engine);
+    const auto log = make_pair_log(system, engine);
     EXPECT_EQ(log->count_near(to_time(Rational(-1000))), -before);
     for (const CollisionKind kind : kKinds) {
       for (long first : {1L, 7L, before - 3, before + 1}) {
@@ -132,7 +132,7 @@ TEST(Impact, GoesOnBeforeTimeZero) {
 /// What the impulses between two times do to the blocks: red's change of velocity is that of all
 /// the blocks' collisions, the change of momentum is the wall's; and the later they are, the less
 /// far both get.
-void expect_oracles_motion(const TwoBlocks& system, const CollisionLog& log, const Rational& from,
+void expect_oracles_motion(const TwoBlocks& system, const PairLog& log, const Rational& from,
                            const Rational& to) {
   SCOPED_TRACE(from.get_str() + " to " + to.get_str());
   const auto before = oracle::high_precision_state(system, from);
@@ -170,7 +170,7 @@ TEST(Impact, DoesToTheBlocksWhatTheOracleSaysAtAnyNumberOfDigits) {
   for (int digits : {2, 5, 9, 20, 60}) {
     SCOPED_TRACE(digits);
     const TwoBlocks system = article_blocks(digits);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     expect_oracles_motion(system, *log, 0, 10);
     expect_oracles_motion(system, *log, 3, parse_rational("3.6"));
     expect_oracles_motion(system, *log, 0, parse_rational("3.4"));
@@ -180,7 +180,7 @@ TEST(Impact, DoesToTheBlocksWhatTheOracleSaysAtAnyNumberOfDigits) {
 
 TEST(CountNear, IsTheCountButForCollisionsWithinItsRounding) {
   for (int digits : {1, 3, 6, 12, 20}) {
-    const auto log = make_collision_log(article_blocks(digits));
+    const auto log = make_pair_log(article_blocks(digits));
     for (const char* text :
          {"-3", "0", "1", "2.1", "3.4", "3.4999", "3.5000001", "4", "5.5", "50"}) {
       const Rational t(parse_rational(text));
@@ -194,7 +194,7 @@ TEST(CountNear, IsTheCountButForCollisionsWithinItsRounding) {
 TEST(CountNear, IsExactWhereCollisionsAreStored) {
   TwoBlocks system = article_blocks(1);
   for (const Engine engine : {Engine::unfolded, Engine::events}) {
-    const auto log = make_collision_log(system, engine);  // at 2, 3 and 4
+    const auto log = make_pair_log(system, engine);  // at 2, 3 and 4
     EXPECT_EQ(log->count_near({1.99, 0}), 0);
     EXPECT_EQ(log->count_near({2.01, 0}), 1);
     EXPECT_EQ(log->count_near({3.5, 0}), 2);
@@ -206,7 +206,7 @@ TEST(CountNear, IsExactWhereCollisionsAreStored) {
 TEST(CountNear, CountsAllOfACornerAtOnce) {
   TwoBlocks system = article_blocks(3);
   system.blue.position = Rational(1, 2);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const Rational corner = corner_of(system)->time;
   EXPECT_EQ(log->count_near(to_time(corner)), log->last());
   EXPECT_EQ(log->count_near(to_time(corner - Rational(1, 1000000))), 0);
@@ -216,7 +216,7 @@ TEST(CountNear, CountsAllOfACornerAtOnce) {
 TEST(Impact, SumsThoseOfBodiesInClosedForm) {
   for (const int side : {1, -1}) {
     const Rational mass = 1'000'000;
-    const BodySystem system{
+    const System system{
         1,
         {{mass, {side * 5}, {-side * 2}, 1}, {Rational(3), {side * 2}, {side * Rational(1, 8)}, 1}},
         {{side > 0 ? "left" : "right", {0}, {side}}}};

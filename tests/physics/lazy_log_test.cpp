@@ -14,8 +14,8 @@ namespace piblocks {
 namespace {
 
 /// Blocks on a line or discs on a grid, open or enclosed, with immovable ones among them.
-BodySystem random_system(Random& random) {
-  BodySystem system;
+System random_system(Random& random) {
+  System system;
   system.dimensions = int(random.integer(1, 2));
   const bool is_plane = system.dimensions == 2;
   const auto count = random.integer(2, 6);
@@ -36,7 +36,7 @@ BodySystem random_system(Random& random) {
   return system;
 }
 
-void expect_same_collision(const BodyCollision& a, const BodyCollision& b) {
+void expect_same_collision(const Collision& a, const Collision& b) {
   EXPECT_EQ(a.index, b.index);
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.first, b.first);
@@ -50,7 +50,7 @@ TEST(LazyLog, AnswersAreThoseOfALongerRun) {
   for (std::uint64_t i = 0; i < std::uint64_t(many(300)); ++i) {
     Random random(7'000 + i);
     SCOPED_TRACE(random.trace() + ", system " + std::to_string(i));
-    const BodySystem system = random_system(random);
+    const System system = random_system(random);
     const Rational until = random.rational(0, 12, 5);
     const auto whole = make_log(system, until + 10);
     whole->state_at(until + 10);
@@ -58,7 +58,7 @@ TEST(LazyLog, AnswersAreThoseOfALongerRun) {
 
     const Integer count = whole->count_at(until);
     EXPECT_EQ(make_log(system)->count_at(until), count);
-    const BodiesState state = make_log(system)->state_at(until);
+    const State state = make_log(system)->state_at(until);
     EXPECT_EQ(state.count, count);
     EXPECT_EQ(state.bodies, whole->state_at(until).bodies);
     if (count < 1) continue;
@@ -75,7 +75,7 @@ TEST(LazyLog, AnswersAreThoseOfALongerRun) {
 /// Between blocks of 10^14 and 10^40 times its mass a light one bounces some 10^7 times, first at
 /// time 2.
 TEST(LazyLog, DoesNotAskWhatHappensLater) {
-  BodySystem system;
+  System system;
   system.bodies = {
       {1, {2}, {}, 1}, {power(100, 7), {5}, {-1}, 1}, {power(100, 20), {Rational(-1, 2)}, {}, 1}};
   const auto log = make_log(system);
@@ -94,7 +94,7 @@ TEST(LazyLog, CertaintyIsKnownAtOnce) {
     Random random(500 + i);
     SCOPED_TRACE(random.trace() + ", system " + std::to_string(i));
     constexpr int kSide = 6;
-    BodySystem system{2, {}, {{"left", {-2}, {1}}, {"right", {3 * kSide + 1}, {-1}}}};
+    System system{2, {}, {{"left", {-2}, {1}}, {"right", {3 * kSide + 1}, {-1}}}};
     system.walls.push_back({"lower", {0, -2}, {0, 1}});
     system.walls.push_back({"upper", {0, 3 * kSide + 1}, {0, -1}});
     for (int k = 0; k < kSide * kSide; ++k) {
@@ -119,7 +119,7 @@ TEST(LazyLog, CertaintyIsKnownAtOnce) {
 
 /// A miss by 10^-28 of what truly is a collision.
 TEST(LazyLog, WhatIsMissedEndsCertaintyOfTheWholeRun) {
-  BodySystem system{2, {}, {}};
+  System system{2, {}, {}};
   system.bodies.push_back({.position = {0, 0}});
   system.bodies.push_back({.position = {-10, 2 - 1 / Rational(power(10, 28))}, .velocity = {1, 0}});
   const auto log = make_log(system);
@@ -130,7 +130,7 @@ TEST(LazyLog, WhatIsMissedEndsCertaintyOfTheWholeRun) {
 /// After a collision, rounding errors of velocities bring a disc to the wall it goes along, in some
 /// 10^14 time units.
 TEST(LazyLog, RoundingErrorsOfLongAgoEndNoRun) {
-  BodySystem system{2, {}, {{"lower", {0, Rational(-7, 3)}, {0, 1}}}};
+  System system{2, {}, {{"lower", {0, Rational(-7, 3)}, {0, 1}}}};
   system.bodies.push_back({.position = {0, 0}, .velocity = {Rational(1, 3), 0}});
   system.bodies.push_back({.mass = 3, .position = {4, 0}});
   const auto log = make_log(system);
@@ -140,7 +140,7 @@ TEST(LazyLog, RoundingErrorsOfLongAgoEndNoRun) {
 }
 
 TEST(LazyLog, TiesAreSeenAtTimesThatAreNoBinaryFractions) {
-  BodySystem system{1, {}, {}};
+  System system{1, {}, {}};
   for (const int x : {-2, 0, 2}) {
     system.bodies.push_back({.position = {Rational(x)}, .velocity = {Rational(-3 * x, 2)}});
   }
@@ -150,7 +150,7 @@ TEST(LazyLog, TiesAreSeenAtTimesThatAreNoBinaryFractions) {
 }
 
 TEST(LazyLog, StopsWhenItIsAsked) {
-  BodySystem box{1, {{1, {5}, {1}, 1}}, {{"left", {0}, {1}}, {"right", {10}, {-1}}}};
+  System box{1, {{1, {5}, {1}, 1}}, {{"left", {0}, {1}}, {"right", {10}, {-1}}}};
   std::stop_source source;
   const auto log = make_log(box, std::nullopt, source.get_token());
   EXPECT_EQ(log->count_at(100), 11);
@@ -165,15 +165,15 @@ TEST(EventEngine, StepsAnySystemAsTheOthersDo) {
   int at_walls = 0;
   for (std::uint64_t i = 0; i < std::uint64_t(many(300)); ++i) {
     Random random(9'000 + i);
-    const BodySystem system = random_system(random);
+    const System system = random_system(random);
     SCOPED_TRACE(random.trace() + ", system " + std::to_string(i));
     const auto right = make_log(system);
     const auto stepped = make_log(system, {}, {}, Engine::events);
     double before = -1;
     for (Integer k = 1; k <= 20 && right->has(k); ++k) {
       ASSERT_TRUE(stepped->has(k));
-      const BodyCollision a = right->collision(k);
-      const BodyCollision b = stepped->collision(k);
+      const Collision a = right->collision(k);
+      const Collision b = stepped->collision(k);
       if (a.time.hi - before < 1e-6 || right->certain_until(to_rational(a.time))) break;
       if (right->has(k + 1) && right->collision_time(k + 1).hi - a.time.hi < 1e-6) break;
       before = a.time.hi;
@@ -192,7 +192,7 @@ TEST(EventEngine, StepsAnySystemAsTheOthersDo) {
 }
 
 TEST(EventEngine, SaysHowManyBodiesItSteps) {
-  BodySystem system;
+  System system;
   for (std::size_t i = 0; i <= kMaxEventBodies; ++i) {
     system.bodies.push_back({.position = {Rational(2 * i)}});
   }
@@ -203,15 +203,15 @@ TEST(EventEngine, SaysHowManyBodiesItSteps) {
 
 TEST(LazyLog, RejectsWhatIsNoSystem) {
   EXPECT_THROW(make_log({}), SceneError);
-  BodySystem overlapping{1, {{1, {0}, {}, 1}, {1, {Rational(1, 2)}, {}, 1}}, {}};
+  System overlapping{1, {{1, {0}, {}, 1}, {1, {Rational(1, 2)}, {}, 1}}, {}};
   EXPECT_THROW(make_log(overlapping), SceneError);
 }
 
 TEST(LazyLog, OnlyTheLastCollisionOfWhatMayNeverEndNeedsAHorizon) {
   const Body fixed{std::nullopt, {}, {}, 1};
-  BodySystem discs{2, {fixed, fixed, {1, {5, 0}, {1, Rational(1, 100)}, 1}}, {}};
+  System discs{2, {fixed, fixed, {1, {5, 0}, {1, Rational(1, 100)}, 1}}, {}};
   discs.bodies[1].position = {10, 0};
-  for (BodySystem system : {discs, BodySystem{1, {{1, {5}, {1}, 1}}, {}}}) {
+  for (System system : {discs, System{1, {{1, {5}, {1}, 1}}, {}}}) {
     if (system.dimensions == 1) system.walls = {{"left", {0}, {1}}, {"right", {10}, {-1}}};
     const auto log = make_log(system);
     EXPECT_TRUE(log->never_ends());

@@ -1,15 +1,15 @@
 // Blocks on a line: against an exact program that shares nothing with them but the masses.
 #include <gtest/gtest.h>
-#include <piblocks/bodies.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/system.hpp>
 
 #include <algorithm>
 #include <map>
 #include <numeric>
 
-#include "physics/body_stepper.hpp"
 #include "physics/certified_line.hpp"
 #include "physics/exact_line.hpp"
+#include "physics/stepper.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {
@@ -26,7 +26,7 @@ struct ExactCollision {
 /// neighbours: pairs that cannot meet are found by their gap alone.
 class ExactWalk {
  public:
-  explicit ExactWalk(const BodySystem& system) : walls_(system.walls), bodies_(system.bodies) {}
+  explicit ExactWalk(const System& system) : walls_(system.walls), bodies_(system.bodies) {}
 
   std::optional<ExactCollision> next() {
     std::optional<ExactCollision> found;
@@ -113,8 +113,8 @@ struct Limits {
   bool walls = true;
 };
 
-BodySystem random_line(Random& random, const Limits& limits) {
-  BodySystem system;
+System random_line(Random& random, const Limits& limits) {
+  System system;
   const long count = random.integer(2, limits.most_bodies);
   Rational x = random.rational(-4, 4, 3);
   const Rational left = x - random.rational(0, 3, 5);
@@ -150,14 +150,14 @@ constexpr int kMostSteps = 150;
 TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) {
   for (std::uint64_t i = 0; i < std::uint64_t(many(120)); ++i) {
     Random random(i);
-    const BodySystem system = random_line(random, {});
+    const System system = random_line(random, {});
     ASSERT_TRUE(problems_of(system).empty()) << problems_of(system).front().reason;
     ExactWalk walk(system);
     const auto stepper = make_line_stepper(system);
     for (int k = 0; k < kMostSteps; ++k) {
       const std::size_t bits = walk.bits();
       const std::optional<ExactCollision> expected = walk.next();
-      const std::optional<BodyStep> step = stepper->step();
+      const std::optional<SteppedCollision> step = stepper->step();
       ASSERT_EQ(step.has_value(), expected.has_value()) << "system " << i << ", step " << k;
       if (!step) break;
       if (!step->exact_time) {
@@ -188,7 +188,7 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
   const auto count = std::uint64_t(many(200));
   for (std::uint64_t i = 0; i < count; ++i) {
     Random random(1'000'000 + i);
-    const BodySystem system = random_line(random, {.most_bodies = 5});
+    const System system = random_line(random, {.most_bodies = 5});
     ExactWalk walk(system);
     CertifiedLine line(elements_of(system), 0);
     Partners expected;
@@ -227,8 +227,8 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
 /// Two systems whose only difference is the order of their bodies.
 TEST(LineTest, TheOrderOfBodiesDoesNotMatter) {
   Random random(7);
-  BodySystem system = random_line(random, {});
-  BodySystem reversed = system;
+  System system = random_line(random, {});
+  System reversed = system;
   std::ranges::reverse(reversed.bodies);
   const auto a = make_line_stepper(system);
   const auto b = make_line_stepper(reversed);
@@ -240,8 +240,8 @@ TEST(LineTest, TheOrderOfBodiesDoesNotMatter) {
   }
 }
 
-BodySystem cradle() {
-  BodySystem system;
+System cradle() {
+  System system;
   for (int i = 0; i < 5; ++i) {
     system.bodies.push_back({1, {Rational(i == 0 ? -3 : i)}, {Rational(i == 0 ? 2 : 0)}, 1});
   }
@@ -252,7 +252,7 @@ TEST(LineTest, CollisionsAtOneInstantAreInPairOrder) {
   const auto log = make_log(cradle());
   EXPECT_EQ(log->last(), 4);
   for (int k = 1; k <= 4; ++k) {
-    const BodyCollision c = log->collision(k);
+    const Collision c = log->collision(k);
     EXPECT_EQ(c.time.hi, 1.5);
     EXPECT_EQ(int(c.first), k - 1);
     EXPECT_EQ(int(c.second), k);
@@ -268,7 +268,7 @@ TEST(LineTest, CollisionsAtOneInstantAreInPairOrder) {
 
 /// Two pairs that meet at one time have nothing to do with each other.
 TEST(LineTest, OnlyABodyThatMeetsTwoOthersAtOnceIsATie) {
-  BodySystem tied;
+  System tied;
   for (const int x : {-3, 0, 3}) tied.bodies.push_back({1, {x}, {Rational(-x, 3)}, 1});
   EXPECT_EQ(make_log(tied)->first_tie(1), 1);
   // Two more meet before that, far away.
@@ -276,7 +276,7 @@ TEST(LineTest, OnlyABodyThatMeetsTwoOthersAtOnceIsATie) {
   tied.bodies.push_back({1, {-22}, {1}, 1});
   EXPECT_EQ(make_log(tied)->first_tie(9), 2);
 
-  BodySystem system;
+  System system;
   for (const int x : {0, 10}) {
     system.bodies.push_back({.position = {x, 0}, .velocity = {1, 0}});
     system.bodies.push_back({.position = {x + 3, 0}, .velocity = {-1, 0}});
@@ -287,7 +287,7 @@ TEST(LineTest, OnlyABodyThatMeetsTwoOthersAtOnceIsATie) {
 }
 
 TEST(LineTest, ABlockBetweenAnotherAndTheWallAtOnceIsATie) {
-  BodySystem corner;
+  System corner;
   corner.bodies = {{std::nullopt, {-1}, {}, 2}, {1, {Rational(1, 2)}, {}, 1}, {3, {3}, {-1}, 1}};
   EXPECT_EQ(make_log(corner)->first_tie(1), 1);
   corner.bodies[1].position = {1};
@@ -296,14 +296,14 @@ TEST(LineTest, ABlockBetweenAnotherAndTheWallAtOnceIsATie) {
 
 TEST(LineTest, TheClosedFormTakesBlocksByOtherNames) {
   for (const int sign : {1, -1}) {
-    BodySystem system;
+    System system;
     system.bodies = {{power(100, 19), {Rational(sign * 5)}, {Rational(-sign)}, 1},
                      {1, {Rational(sign * 2)}, {}, 1}};
     system.walls = {{"wall", {Rational(-sign, 2)}, {Rational(sign)}}};
     const auto log = make_log(system);
     EXPECT_EQ(log->last(), Integer("31415926535897932384"));
     EXPECT_FALSE(log->is_exact(1));
-    const BodyCollision second = log->collision(2);
+    const Collision second = log->collision(2);
     EXPECT_EQ(second.first, 1U);   // blue
     EXPECT_EQ(second.second, 2U);  // the wall
     EXPECT_EQ(log->state_at(0).bodies[0].position[0], sign * 5);
@@ -314,7 +314,7 @@ TEST(LineTest, TheClosedFormTakesBlocksByOtherNames) {
 /// Numbers that are called exact are the nearest doubles; those of the closed form need not be.
 TEST(LineTest, TheClosedFormSaysWhetherItIsExact) {
   for (const Rational& mass : {Rational(3, 7), Rational(1), Rational(7, 3), Rational(100)}) {
-    BodySystem system;
+    System system;
     system.bodies = {{1, {Rational(19, 7)}, {Rational(-1, 3)}, Rational(1, 3)},
                      {mass, {Rational(16, 3)}, {Rational(-10, 9)}, 1}};
     system.walls = {{"wall", {Rational(1, 9)}, {1}}};
@@ -324,7 +324,7 @@ TEST(LineTest, TheClosedFormSaysWhetherItIsExact) {
     ExactWalk walk(system);
     for (Integer k = 1; k <= log->last(); ++k) {
       const auto expected = walk.next();
-      const BodyMotion found = log->collision(k).first_after;
+      const Motion found = log->collision(k).first_after;
       const Body& truth = walk.bodies()[expected->first];
       const double limit = is_exact ? 0 : 1e-14;
       EXPECT_LE(std::fabs(found.position[0] - to_double(truth.position[0])), limit) << k;
@@ -334,7 +334,7 @@ TEST(LineTest, TheClosedFormSaysWhetherItIsExact) {
 }
 
 TEST(LineTest, SwitchingToDoublesKeepsWhatHappens) {
-  BodySystem system;
+  System system;
   system.bodies = {{1, {1}, {1}, 1},
                    {Rational(17, 3), {3}, {Rational(-1, 7)}, 1},
                    {Rational(5, 11), {5}, {0}, 1}};
@@ -349,7 +349,7 @@ TEST(LineTest, SwitchingToDoublesKeepsWhatHappens) {
   EXPECT_GT(until, 100);
   for (Integer k = 1; k <= log->last() && k < 1500; ++k) {
     const auto expected = walk.next();
-    const BodyCollision found = log->collision(k);
+    const Collision found = log->collision(k);
     if (found.time.hi >= until) break;
     ASSERT_EQ(found.first, expected->first) << k;
     ASSERT_EQ(found.second, expected->second) << k;
@@ -358,11 +358,11 @@ TEST(LineTest, SwitchingToDoublesKeepsWhatHappens) {
 }
 
 TEST(LineTest, RejectsWhatIsNoSystem) {
-  const auto problem = [](BodySystem system) {
+  const auto problem = [](System system) {
     const auto problems = problems_of(system);
     return problems.empty() ? std::string() : problems.front().key + " " + problems.front().reason;
   };
-  BodySystem system = cradle();
+  System system = cradle();
   system.bodies[1].mass = -1;
   EXPECT_EQ(problem(system), "body 2.mass = -1: must be greater than 0");
   system = cradle();

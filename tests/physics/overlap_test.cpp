@@ -1,6 +1,6 @@
 // Which discs overlap at time 0: what problems_of() says of a system against all pairs.
 #include <gtest/gtest.h>
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <cstddef>
 #include <random>
@@ -30,7 +30,7 @@ std::set<std::pair<std::size_t, std::size_t>> overlapping_pairs(const std::vecto
 }
 
 /// Of each overlap that is named, both discs.
-std::set<std::pair<std::size_t, std::size_t>> named_pairs(const BodySystem& system) {
+std::set<std::pair<std::size_t, std::size_t>> named_pairs(const System& system) {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (const auto& [key, reason] : problems_of(system)) {
     const std::string before = "overlaps body ";
@@ -43,7 +43,7 @@ std::set<std::pair<std::size_t, std::size_t>> named_pairs(const BodySystem& syst
 }
 
 /// Every named pair overlaps. Without the first disc of each, no discs overlap.
-void expect_right(const BodySystem& system) {
+void expect_right(const System& system) {
   const auto all = overlapping_pairs(system.bodies);
   const auto named = named_pairs(system);
   std::set<std::size_t> lost;
@@ -65,7 +65,7 @@ TEST(OverlapTest, FindsAllAmongDiscsThatTouch) {
   };
   int free = 0;
   for (int run = 0; run < 1000; ++run) {
-    BodySystem system{2, {}, {}};
+    System system{2, {}, {}};
     const int side = whole(3, 40);
     const int largest = whole(1, 6);
     const int most = whole(2, 25);
@@ -84,7 +84,7 @@ TEST(OverlapTest, FindsAllAmongDiscsOfAllSizes) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> share(-1, 1);
   for (int run = 0; run < 300; ++run) {
-    BodySystem system{2, {}, {}};
+    System system{2, {}, {}};
     for (int i = 0; i < 30; ++i) {
       const int exponent = std::uniform_int_distribution(-9, 9)(random);
       const Rational size = exponent < 0
@@ -110,7 +110,7 @@ TEST(OverlapTest, FindsAllAmongDiscsOfAllSizes) {
 TEST(OverlapTest, IsQuickWhereverDiscsAre) {
   constexpr int kDiscs = 10'000;
   const auto expect_one = [](const auto& place_of, const char* what) {
-    BodySystem system{2, {}, {}};
+    System system{2, {}, {}};
     for (int i = 0; i < kDiscs; ++i) system.bodies.push_back({1, place_of(i), {}, 1});
     EXPECT_TRUE(problems_of(system).empty()) << what;
     system.bodies.push_back({1, place_of(777), {}, 1});

@@ -1,8 +1,7 @@
 // Blocks that lose energy where they collide, against steps in rational numbers.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/restitution.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include "physics/exposure.hpp"
 #include "physics/inelastic_log.hpp"
@@ -95,11 +94,11 @@ TEST(LeastRestitution, FollowsTheFormula) {
 }
 
 /// With nothing lost the general form is compared with the elastic one.
-void expect_like_elastic(const TwoBlocks& system, const CollisionLog& inelastic, double tolerance,
+void expect_like_elastic(const TwoBlocks& system, const PairLog& inelastic, double tolerance,
                          Random& random) {
   TwoBlocks elastic_system = system;
   elastic_system.blocks_restitution = elastic_system.wall_restitution = 1;
-  const auto elastic = make_collision_log(elastic_system);
+  const auto elastic = make_pair_log(elastic_system);
   ASSERT_EQ(inelastic.last(), elastic->last());
   const Rational y1 = system.blue_gap();
   const bool in_corner =
@@ -109,8 +108,8 @@ void expect_like_elastic(const TwoBlocks& system, const CollisionLog& inelastic,
     const Integer index =
         1 + (inelastic.last() - 1) * Integer(long(random.integer(0, 1000000))) / 1000000;
     SCOPED_TRACE(index.get_str());
-    const Collision a = inelastic.blocks_collision(index);
-    const Collision b = elastic->blocks_collision(index);
+    const PairCollision a = inelastic.blocks_collision(index);
+    const PairCollision b = elastic->blocks_collision(index);
     EXPECT_EQ(a.kind, b.kind);
     EXPECT_NEAR(a.time.hi, b.time.hi, tolerance * (1 + std::fabs(b.time.hi)));
     EXPECT_NEAR(a.blue.position, b.blue.position, tolerance * (1 + std::fabs(b.blue.position)));
@@ -142,16 +141,16 @@ TEST(Restitution, NearOneOfManyDigits) {
     const Rational loss = power(Rational(1, 10), static_cast<unsigned long>(3 * digits));
     const TwoBlocks system = with_restitution(article_blocks(digits), 1 - loss / 1000000);
     if (digits == 1) continue;  // any loss makes one collision more
-    expect_like_elastic(system, *make_collision_log(system), 1e-13, random);
+    expect_like_elastic(system, *make_pair_log(system), 1e-13, random);
   }
   const TwoBlocks slight = with_restitution(article_blocks(3), 1 - power(Rational(1, 10), 30));
-  expect_like_elastic(slight, *make_collision_log(slight), 1e-13, random);
+  expect_like_elastic(slight, *make_pair_log(slight), 1e-13, random);
 }
 
 /// The run of 20 digits that loses a little, where nothing can be stepped: neighbours must fit.
 TEST(Restitution, NeighboursFitAtTwentyDigits) {
   const TwoBlocks system = with_restitution(article_blocks(20), 1 - power(Rational(1, 10), 20));
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   ASSERT_GT(log->last(), count_collisions(article_blocks(20)));
   EXPECT_EQ(log->last(), count_collisions(system));
   for (const Integer& index :
@@ -177,7 +176,7 @@ TEST(Restitution, HalfOfEqualMasses) {
   // Worked by hand: (0, -1) -> (-3/4, -1/4) -> (3/8, -1/4) -> (-3/32, 7/32) -> (3/64, 7/32).
   TwoBlocks system = with_restitution(article_blocks(1), Rational(1, 2));
   EXPECT_EQ(count_collisions(system), 4);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->blocks_collision(4).blue.velocity, 3.0 / 64);
   EXPECT_EQ(log->blocks_collision(4).red.velocity, 7.0 / 32);
 }
@@ -188,11 +187,11 @@ TEST(Restitution, NoReboundEndsInTheCornerAtOnce) {
   ASSERT_TRUE(collapse);
   // Red is 2 away from blue, and both go on to the wall, 3/2 away, at half its speed.
   EXPECT_EQ(collapse->time, Time({5, 0}));
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->blocks_collision(1).blue.velocity, -0.5);
   EXPECT_EQ(log->blocks_collision(1).red.velocity, -0.5);
   EXPECT_EQ(log->blocks_at(Rational(9, 2)).count, 1);
-  const BlockState after = log->blocks_at(5);
+  const PairState after = log->blocks_at(5);
   EXPECT_EQ(after.count, log->last());
   EXPECT_EQ(after.blue.position, 0.5);
   EXPECT_EQ(after.red.position, 1.5);
@@ -215,7 +214,7 @@ TEST(Restitution, AnEndlessRunMayTakeForever) {
   EXPECT_THROW(count_collisions(system), UsageError);
   Random random(1);
   expect_like_steps(system, random, 60);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->blocks_collision(3).blue.velocity, log->blocks_collision(1).blue.velocity / 8);
   // A hair beside it there is an end.
   system.red.velocity -= power(Rational(1, 10), 30);
@@ -232,16 +231,16 @@ TEST(Restitution, APositionOfZeroIsZero) {
   system.blue = {Rational(7, 3), Rational(13, 18), Rational(-3, 4), 1};
   system.red = {Rational(7, 9), Rational(103, 18), Rational(-3, 4), 1};
   const TwoBlocks inelastic = with_restitution(system, Rational(3, 5));
-  EXPECT_EQ(make_collision_log(inelastic)->blocks_collision(2).blue.position, 0);
+  EXPECT_EQ(make_pair_log(inelastic)->blocks_collision(2).blue.position, 0);
   Random random(3);
   expect_like_steps(inelastic, random, 40);
 }
 
 TEST(Restitution, StateBeforeTimeZeroIsFree) {
   const TwoBlocks system = with_restitution(article_blocks(2), Rational(1, 2));
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->first_index(), 1);
-  const BlockState state = log->blocks_at(-7);
+  const PairState state = log->blocks_at(-7);
   EXPECT_EQ(state.count, 0);
   EXPECT_EQ(state.red.position, 12);
   EXPECT_EQ(state.red.velocity, -1);
@@ -250,7 +249,7 @@ TEST(Restitution, StateBeforeTimeZeroIsFree) {
 /// Sums of many collisions of both kinds against all of them one by one.
 TEST(Restitution, ImpactsAreSums) {
   const TwoBlocks system = with_restitution(article_blocks(4), Rational(999999, 1000000));
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const double r = to_double(system.blue.mass / system.red.mass);
   for (const auto& [first, last] :
        {std::pair(1, 3000), std::pair(1500, 1501), std::pair(7, 7), std::pair(1400, 1700)}) {
@@ -258,7 +257,7 @@ TEST(Restitution, ImpactsAreSums) {
       double sum = 0;
       double moment = 0;
       for (int n = first; n <= last; ++n) {
-        const Collision now = log->blocks_collision(n);
+        const PairCollision now = log->blocks_collision(n);
         if (now.kind != kind) continue;
         const double e = to_double(system.wall_restitution);
         // The speed of approach, from that of parting. Red had all the energy, at a speed of 1.
@@ -277,9 +276,8 @@ TEST(Restitution, ImpactsAreSums) {
 }
 
 /// Where blue is on average, from its position at many times.
-void expect_mean(const CollisionLog& log, const Rational& begin, const Rational& end,
-                 double tolerance) {
-  const Exposure exposure = expose(log, begin, end);
+void expect_mean(const PairLog& log, const Rational& begin, const Rational& end, double tolerance) {
+  const PairExposure exposure = expose(log, begin, end);
   double share = 0;
   double mean = 0;
   for (const UniformPiece& piece : exposure.pieces) {
@@ -298,9 +296,9 @@ void expect_mean(const CollisionLog& log, const Rational& begin, const Rational&
 }
 
 TEST(Restitution, ExposuresListOrSliceTheFlights) {
-  const auto few = make_collision_log(with_restitution(article_blocks(3), Rational(99, 100)));
+  const auto few = make_pair_log(with_restitution(article_blocks(3), Rational(99, 100)));
   expect_mean(*few, 3, 4, 1e-4);
-  const auto many = make_collision_log(with_restitution(article_blocks(6), Rational(999, 1000)));
+  const auto many = make_pair_log(with_restitution(article_blocks(6), Rational(999, 1000)));
   ASSERT_GT(many->state_at(Rational(36, 10)).count - many->state_at(Rational(34, 10)).count, 10000);
   expect_mean(*many, Rational(34, 10), Rational(36, 10), 1e-3);
 }
@@ -308,7 +306,7 @@ TEST(Restitution, ExposuresListOrSliceTheFlights) {
 TEST(Restitution, RedTurnsAtTheTurn) {
   for (const char* const e : {"0.9", "0.99", "1/2", "0"}) {
     const TwoBlocks system = with_restitution(article_blocks(2), parse_rational(e));
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     const auto turn = turn_of(system);
     ASSERT_TRUE(turn);
     const double nearest = log->blocks_at(*turn).red.position;
@@ -334,7 +332,7 @@ TEST(Restitution, CornersHaveTwoCounts) {
   EXPECT_TRUE(corner->blocks_first);
   EXPECT_EQ(corner->count, Integer(oracle::inelastic_run(system, 100).events.size()));
   EXPECT_EQ(corner->other_count, corner->count + 1);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->blocks_at(Rational(7, 2)).count, corner->count);
   EXPECT_EQ(log->blocks_at(Rational(6, 2)).count, 0);
   // Both come into the corner on a slant: a later red block meets blue first.
@@ -353,7 +351,7 @@ TEST(Restitution, CornersHaveTwoCounts) {
 
 TEST(Restitution, EnginesThatStepRefuseIt) {
   const TwoBlocks system = with_restitution(article_blocks(2), Rational(1, 2));
-  EXPECT_THROW(make_collision_log(system, Engine::events), UsageError);
+  EXPECT_THROW(make_pair_log(system, Engine::events), UsageError);
 }
 
 TEST(Restitution, IsAShare) {

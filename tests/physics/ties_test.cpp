@@ -1,6 +1,6 @@
 // The order of collisions at one instant: the same for every way to write the same bodies.
 #include <gtest/gtest.h>
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <algorithm>
 #include <string>
@@ -21,17 +21,17 @@ struct Meeting {
 };
 constexpr std::size_t kImmovable = 1'000;
 
-std::vector<Meeting> meetings_of(const BodySystem& system, const Rational& until, int sign = 1) {
+std::vector<Meeting> meetings_of(const System& system, const Rational& until, int sign = 1) {
   std::vector<std::size_t> numbers;
   std::size_t movable = 0;
   for (const Body& body : system.bodies) numbers.push_back(body.mass ? movable++ : kImmovable);
   const auto log = make_log(system, until);
   std::vector<Meeting> meetings;
   for (Integer index = 1; index <= log->count_at(until); ++index) {
-    const BodyCollision found = log->collision(index);
+    const Collision found = log->collision(index);
     const std::size_t first = numbers[found.first];
     const std::size_t second = found.second < numbers.size() ? numbers[found.second] : kImmovable;
-    const BodyMotion& seen = first == kImmovable ? found.second_after : found.first_after;
+    const Motion& seen = first == kImmovable ? found.second_after : found.first_after;
     meetings.push_back({found.time.hi,
                         std::min(first, second),
                         std::max(first, second),
@@ -41,8 +41,8 @@ std::vector<Meeting> meetings_of(const BodySystem& system, const Rational& until
 }
 
 /// Blocks of equal spacing and few speeds: many collisions happen at one instant.
-BodySystem tied_line(Random& random) {
-  BodySystem system;
+System tied_line(Random& random) {
+  System system;
   const auto count = random.integer(2, 4);
   for (std::int64_t i = 0; i < count; ++i) {
     system.bodies.push_back({.mass = random.integer(1, 3),
@@ -60,7 +60,7 @@ Body immovable_block(const Rational& face, int side) {
   return {std::nullopt, {face - Rational(3, 2) * side}, {}, 3};
 }
 
-BodySystem mirrored(BodySystem system) {
+System mirrored(System system) {
   for (Body& body : system.bodies) {
     body.position[0] = -body.position[0];
     body.velocity[0] = -body.velocity[0];
@@ -78,8 +78,8 @@ TEST(TiesTest, DoNotDependOnHowImmovableThingsAreWritten) {
   for (std::uint64_t i = 0; i < std::uint64_t(many(400)); ++i) {
     Random random(100 + i);
     SCOPED_TRACE(random.trace() + ", scene " + std::to_string(i));
-    const BodySystem movable = tied_line(random);
-    BodySystem walled = movable;
+    const System movable = tied_line(random);
+    System walled = movable;
     walled.walls = {{"left", {-1}, {1}}};
     const bool is_box = random.integer(0, 1) == 1;
     const Rational right = Rational(2 * movable.bodies.size() + 1);
@@ -90,19 +90,19 @@ TEST(TiesTest, DoNotDependOnHowImmovableThingsAreWritten) {
     }
 
     for (const std::size_t place : {std::size_t(0), std::size_t(1), movable.bodies.size()}) {
-      BodySystem blocked = movable;
+      System blocked = movable;
       const auto at = blocked.bodies.begin() + std::ptrdiff_t(place);
       blocked.bodies.insert(at, immovable_block(-1, 1));
       if (is_box) blocked.bodies.insert(blocked.bodies.begin(), immovable_block(right, -1));
       EXPECT_EQ(meetings_of(blocked, until), expected) << "with a fixed body at " << place;
     }
-    BodySystem swapped = walled;
+    System swapped = walled;
     std::ranges::reverse(swapped.walls);
     EXPECT_EQ(meetings_of(swapped, until), expected) << "walls in another order";
     EXPECT_EQ(meetings_of(mirrored(walled), until, -1), expected) << "mirrored";
     // Two blocks beside a wall are in closed form; with a third one they are stepped.
     if (is_box) continue;
-    BodySystem larger = walled;
+    System larger = walled;
     larger.bodies.push_back({.position = {1000}});
     const auto is_same_pair = [](const Meeting& a, const Meeting& b) {
       return std::tie(a.first, a.second) == std::tie(b.first, b.second);
@@ -120,7 +120,7 @@ TEST(TiesTest, OfDiscsAreThoseOfTheMirroredScene) {
   for (std::uint64_t i = 0; i < std::uint64_t(many(100)); ++i) {
     Random random(9'000 + i);
     SCOPED_TRACE(random.trace() + ", scene " + std::to_string(i));
-    BodySystem system;
+    System system;
     system.dimensions = 2;
     for (int place = 0; place < 6; ++place) {
       system.bodies.push_back(
@@ -128,7 +128,7 @@ TEST(TiesTest, OfDiscsAreThoseOfTheMirroredScene) {
            .position = {Rational(4 * (place % 3)), Rational(4 * (place / 3))},
            .velocity = {Rational(random.integer(-1, 1)), Rational(random.integer(-1, 1))}});
     }
-    BodySystem walled = system;
+    System walled = system;
     walled.walls = {{"left", {-2}, {1}}, {"right", {10}, {-1}}};
     const std::vector<Meeting> expected = meetings_of(walled, until);
     for (std::size_t k = 1; k < expected.size(); ++k) {
@@ -137,12 +137,12 @@ TEST(TiesTest, OfDiscsAreThoseOfTheMirroredScene) {
     EXPECT_EQ(meetings_of(mirrored(walled), until, -1), expected);
     for (const std::size_t place : {std::size_t(0), std::size_t(3), std::size_t(6)}) {
       // Two immovable discs, written before, between and after the others.
-      BodySystem pinned = system;
+      System pinned = system;
       for (const int x : {-4, 12}) {
         const auto at = pinned.bodies.begin() + std::ptrdiff_t(place);
         pinned.bodies.insert(at, {std::nullopt, {Rational(x), 4}, {}, 1});
       }
-      BodySystem last = system;
+      System last = system;
       for (const int x : {12, -4}) last.bodies.push_back({std::nullopt, {Rational(x), 4}, {}, 1});
       EXPECT_EQ(meetings_of(pinned, until), meetings_of(last, until)) << "at " << place;
     }
@@ -152,7 +152,7 @@ TEST(TiesTest, OfDiscsAreThoseOfTheMirroredScene) {
 
 /// Three blocks and a wall, all of which meet at time 1.
 TEST(TiesTest, PairsOfMovableBodiesComeBeforeTheWall) {
-  BodySystem system;
+  System system;
   for (const int x : {1, 3, 5}) {
     system.bodies.push_back(
         {.position = {Rational(x)}, .velocity = {Rational(-(x - 1), 2) - Rational(1, 2)}});
@@ -160,7 +160,7 @@ TEST(TiesTest, PairsOfMovableBodiesComeBeforeTheWall) {
   system.walls = {{"wall", {0}, {1}}};
   const auto log = make_log(system, 100);
   const auto pair = [&](int index) {
-    const BodyCollision found = log->collision(index);
+    const Collision found = log->collision(index);
     return std::pair(int(found.first), int(found.second));
   };
   EXPECT_EQ(log->collision(3).time.hi, 1);

@@ -1,8 +1,8 @@
 // Exposed frames of bodies against the mean of many instants.
 #include <gtest/gtest.h>
-#include <piblocks/bodies.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/system.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 namespace piblocks {
 namespace {
 
-Scene scene_of(BodySystem system, const Rational& end) {
+Scene scene_of(System system, const Rational& end) {
   Scene scene;
   const std::size_t count = system.bodies.size();
   scene.system = std::move(system);
@@ -39,8 +39,8 @@ Scene scene_of(BodySystem system, const Rational& end) {
   return scene;
 }
 
-BodySystem box(std::vector<Body> bodies, int dimensions) {
-  BodySystem system{dimensions, std::move(bodies), {}};
+System box(std::vector<Body> bodies, int dimensions) {
+  System system{dimensions, std::move(bodies), {}};
   system.walls.push_back({"left", {0, 0}, {1, 0}});
   system.walls.push_back({"right", {8, 0}, {-1, 0}});
   if (dimensions == 2) {
@@ -208,7 +208,7 @@ TEST(BodyShutter, NarrowBlocksAreMeansOfInstants) {
 /// A body that bounces exactly once, or twice, between samples at even times would seem to stay.
 TEST(BodyShutter, FramesOfManyCollisionsAreMeansOfInstants) {
   for (const int bounces : {511, 1022, 2044}) {
-    BodySystem system{1, {}, {}};
+    System system{1, {}, {}};
     system.bodies.push_back({.mass = std::nullopt, .position = {1, 0}});
     system.bodies.push_back({.mass = 1,
                              .position = {3, 0},
@@ -268,7 +268,7 @@ TEST(BodyShutter, FramesOfTheClosedFormAreMeansOfInstants) {
   for (const auto& [sign, is_inner_first] :
        {std::pair(1, true), std::pair(1, false), std::pair(-1, true), std::pair(-1, false)}) {
     SCOPED_TRACE(testing::Message() << sign << (is_inner_first ? "" : ", the outer block first"));
-    BodySystem system{1, {}, {{"side", {sign > 0 ? 0 : 8, 0}, {sign, 0}}}};
+    System system{1, {}, {{"side", {sign > 0 ? 0 : 8, 0}, {sign, 0}}}};
     const auto at = [&](const Rational& distance) -> Rational {
       return sign > 0 ? distance : Rational(8 - distance);
     };

@@ -58,7 +58,7 @@ struct Anchored {
   Integer count;
 };
 
-std::vector<Anchored> anchors_of(const CollisionLog& log) {
+std::vector<Anchored> anchors_of(const PairLog& log) {
   const Integer& total = log.last();
   const Rational turn = *turn_of(log.blocks());
   return {{Instant::last(), total},
@@ -88,7 +88,7 @@ void expect_in_films(const Scene& scene, const Anchored& at) {
   frozen.time.to = Instant::last(3);
   frozen.time.speed = 20;
   frozen.pacing.freezes = {{at.instant, 2}};
-  const Schedule schedule = make_schedule(frozen, *make_collision_log(frozen.system));
+  const Schedule schedule = make_schedule(frozen, *make_pair_log(frozen.system));
   const auto stop = std::ranges::find(schedule.stretches(), 0, &Stretch::speed);
   const Film stands(frozen);
   const std::int64_t frame = ceil(stop->video_s * 2).get_si();
@@ -126,7 +126,7 @@ void expect_in_texts(const Scene& scene, const Anchored& at) {
 
 void expect_everywhere(const TwoBlocks& system) {
   const Scene scene = scene_of(system);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   SCOPED_TRACE("ratio " + system.red.mass.get_str());
   for (const Anchored& at : anchors_of(*log)) {
     SCOPED_TRACE(exact_text(at.instant));
@@ -159,7 +159,7 @@ TEST(CountsShown, AreInTheBaseOfTheScene) {
   for (const auto& [base, digits] : {std::pair{2, 9}, {3, 6}, {16, 3}, {36, 3}}) {
     Scene scene = scene_of(article_blocks(digits, base));
     scene.show.base = base;
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     for (const Anchored& at : anchors_of(*log)) {
       const std::string count = at.count.get_str(base);
       EXPECT_EQ(count_of(still_picture(scene, at.instant)), count);
@@ -179,7 +179,7 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
   Scene film = scene;
   film.time.from = Rational(-20);
   film.time.to = Rational(1);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const std::string text = captions(film, *log, make_schedule(film, *log));
   EXPECT_NE(text.find("100 collisions or more to go until time 0"), std::string::npos) << text;
   // Count 0 is reached before time 0, and kept after it.
@@ -293,7 +293,7 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     scene.view.theme = theme;
     scene.view.width_px = 640;
     scene.view.height_px = 360;
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     EXPECT_EQ(count_of(still_picture(scene, Instant::last())), "∞");
     EXPECT_EQ(count_of(still_picture(scene, Instant(Rational(9)))), "∞");
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(7))), "7");

@@ -99,7 +99,7 @@ mass-ratio = 3
         EXPECT_TRUE(is_silent(heard.left, from, std::size_t(end))) << "card at " << begin;
         continue;
       }
-      const CollisionLog& log = *placed.segment.runs().front().log().pair();
+      const PairLog& log = *placed.segment.runs().front().log().pair();
       const Stretch& first = placed.segment.schedule()->stretches().front();
       const double at_s =
           (log.blocks_collision(1).time.hi - to_double(first.time)) / to_double(first.speed);

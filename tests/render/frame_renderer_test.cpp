@@ -37,7 +37,7 @@ class FullPaint {
  public:
   explicit FullPaint(const Scene& scene)
       : scene_(scene),
-        log_(make_collision_log(scene.system)),
+        log_(make_pair_log(scene.system)),
         schedule_(make_schedule(scene, *log_)),
         composition_(scene, *log_) {}
 
@@ -50,7 +50,7 @@ class FullPaint {
 
  private:
   Scene scene_;
-  std::unique_ptr<CollisionLog> log_;
+  std::unique_ptr<PairLog> log_;
   Schedule schedule_;
   Composition composition_;
 };

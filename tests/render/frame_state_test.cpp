@@ -21,12 +21,12 @@ const Rational kSeen_s = Rational(3, 20) - power(Rational(1, 10), 12);
 /// A collision that the video passes.
 struct Pass {
   Rational video_s;
-  Collision collision;
+  PairCollision collision;
   bool is_forward;
 };
 
 /// The exact time where there is one, so that a frame exactly at a collision shows it.
-Rational exact_time(const CollisionLog& log, const Collision& collision) {
+Rational exact_time(const PairLog& log, const PairCollision& collision) {
   try {
     return log.time_after(collision.index);
   } catch (const Error&) {  // several at once, or an engine that steps
@@ -35,7 +35,7 @@ Rational exact_time(const CollisionLog& log, const Collision& collision) {
 }
 
 /// All passes of a video, by looking for every collision in every stretch.
-std::vector<Pass> all_passes(const CollisionLog& log, const Schedule& schedule) {
+std::vector<Pass> all_passes(const PairLog& log, const Schedule& schedule) {
   const auto stretches = schedule.stretches();
   const Rational end_s = Rational(schedule.frame_count()) / kFrames_hz;
   std::vector<Pass> passes;
@@ -45,7 +45,7 @@ std::vector<Pass> all_passes(const CollisionLog& log, const Schedule& schedule) 
     if (now.speed == 0) continue;
     const bool is_forward = now.speed > 0;
     for (Integer k = log.first_index(); k <= log.last(); ++k) {
-      const Collision collision = log.blocks_collision(k);
+      const PairCollision collision = log.blocks_collision(k);
       const Rational pass_s = now.video_s + (exact_time(log, collision) - now.time) / now.speed;
       // The counter changes at a collision's time forwards, and just after it backwards.
       const bool is_in = is_forward ? pass_s > now.video_s && pass_s <= until_s
@@ -77,12 +77,12 @@ double rate_at(const std::vector<Pass>& passes, const Rational& video_s) {
   return std::min(32.0, 2 / to_double(std::max<Rational>(both_s, video_s - last_s)));
 }
 
-double surface_of(const TwoBlocks& system, const Collision& collision) {
+double surface_of(const TwoBlocks& system, const PairCollision& collision) {
   if (collision.kind == CollisionKind::wall) return to_double(system.wall_face);
   return collision.red.position - to_double(system.red.width / 2);
 }
 
-FrameState state_of(const CollisionLog& log, const Schedule& schedule, std::int64_t frame) {
+FrameState state_of(const PairLog& log, const Schedule& schedule, std::int64_t frame) {
   const Rational video_s = Rational(frame) / kFrames_hz;
   return frame_state(log, schedule.at(video_s), {.hits = true}, 1, {schedule, video_s});
 }
@@ -98,7 +98,7 @@ void expect_hits(const FrameState& state, const std::vector<Pass>& wanted, const
   ASSERT_EQ(state.hits.size(), wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Hit& hit = state.hits[i];
-    const Collision& collision = wanted[i].collision;
+    const PairCollision& collision = wanted[i].collision;
     EXPECT_EQ(hit.index, collision.index);
     EXPECT_EQ(hit.pair[0], 0U);
     const bool is_wall = collision.kind == CollisionKind::wall;
@@ -113,7 +113,7 @@ void expect_hits(const FrameState& state, const std::vector<Pass>& wanted, const
 }
 
 /// Every frame has the hits that are found among all passes.
-Seen expect_true_hits(const CollisionLog& log, const Schedule& schedule) {
+Seen expect_true_hits(const PairLog& log, const Schedule& schedule) {
   Seen seen;
   const std::vector<Pass> passes = all_passes(log, schedule);
   for (std::int64_t frame = 0; frame < schedule.frame_count().get_si(); ++frame) {
@@ -148,7 +148,7 @@ Scene film_of(int digits) {
 }
 
 Seen expect_true_hits(const Scene& scene) {
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   return expect_true_hits(*log, make_schedule(scene, *log));
 }
 
@@ -211,7 +211,7 @@ TEST(Hits, ThatComeEvenlyDoNotComeAndGo) {
     SCOPED_TRACE(tenths);
     // Two hits in the time of a passage there and back.
     scene.system.bodies[0].velocity[0] = Rational(tenths) / 10 * 3;
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const Schedule schedule = make_schedule(scene, *log);
     const double rate = to_double(scene.system.bodies[0].velocity[0] /
                                   (2 + two_blocks_of(scene.system)->blue_gap()));
@@ -233,13 +233,12 @@ TEST(Hits, BeforeTimeZero) {
 
 TEST(Hits, OfARunThatFollowsAnotherClock) {
   const Scene leading = film_of(2);
-  const auto leader = make_collision_log(leading.system);
+  const auto leader = make_pair_log(leading.system);
   const Schedule schedule = make_schedule(leading, *leader);
   TwoBlocks other = article_blocks(1);
   other.red.mass = Rational(1, 2);  // the exact list of events
-  EXPECT_GT(expect_true_hits(*make_collision_log(other), schedule).hits, 10);
-  EXPECT_GT(expect_true_hits(*make_collision_log(article_system(2), Engine::events), schedule).hits,
-            10);
+  EXPECT_GT(expect_true_hits(*make_pair_log(other), schedule).hits, 10);
+  EXPECT_GT(expect_true_hits(*make_pair_log(article_system(2), Engine::events), schedule).hits, 10);
 }
 
 TEST(Hits, OfACornerAreACrowd) {
@@ -254,7 +253,7 @@ TEST(Hits, OfACornerAreACrowd) {
 TEST(Hits, OfTwentyDigitsCostNoMore) {
   Scene scene = film_of(20);
   scene.time.to = Rational(7);
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   double most = 0;
   for (std::int64_t frame = 0; frame < 420; ++frame) {
@@ -299,7 +298,7 @@ TEST(Hits, OfAnyPacing) {
 TEST(Hits, DoNotDependOnTheOrderOfFrames) {
   Scene scene = film_of(2);
   scene.pacing.loop = true;
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const auto text_of = [&](std::int64_t frame) {
     const FrameState state = state_of(*log, schedule, frame);
@@ -318,7 +317,7 @@ TEST(Hits, DoNotDependOnTheOrderOfFrames) {
 }
 
 TEST(FrameStates, HaveGapsWhereTheyAreNeeded) {
-  const auto log = make_collision_log(article_system(20));
+  const auto log = make_pair_log(article_system(20));
   const FrameTime turn{turn_of(log->blocks()).value()};
   const Gaps gaps = frame_state(*log, turn, {.gaps = true}, 1).gaps;
   EXPECT_GT(gaps.y2, 1.4e-19);
@@ -328,7 +327,7 @@ TEST(FrameStates, HaveGapsWhereTheyAreNeeded) {
 
 /// Two discs and two blocks, each kind in a box.
 Scene scene_of_bodies(int dimensions) {
-  BodySystem system{dimensions, {}, {{"left", {0, 0}, {2, 0}}, {"right", {8, 0}, {-1, 0}}}};
+  System system{dimensions, {}, {{"left", {0, 0}, {2, 0}}, {"right", {8, 0}, {-1, 0}}}};
   system.bodies.push_back(
       {.position = {2, 2}, .velocity = {5, dimensions - 1}, .size = Rational(1, 2)});
   system.bodies.push_back({.mass = 3, .position = {6, dimensions == 1 ? 0 : 2}, .size = 1});
@@ -362,8 +361,8 @@ TEST(FrameStates, PairsThatMetAreThoseOfTheNewestCollisions) {
     backwards += is_forward ? 0 : 1;
     std::vector<MetPair> expected;
     for (int n = 0; n < 4; ++n) {  // twice as many as bodies
-      const BodyCollision met = log->collision(is_forward ? Integer(state.state.count - n)
-                                                          : Integer(state.state.count + 1 + n));
+      const Collision met = log->collision(is_forward ? Integer(state.state.count - n)
+                                                      : Integer(state.state.count + 1 + n));
       const MetPair pair{met.first, met.second};
       if (std::ranges::find(expected, pair) == expected.end()) expected.push_back(pair);
     }
@@ -377,7 +376,7 @@ TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
   for (const int dimensions : {1, 2}) {
     SCOPED_TRACE(dimensions);
     const Scene scene = scene_of_bodies(dimensions);
-    const BodySystem& system = scene.system;
+    const System& system = scene.system;
     const auto log = make_log(system, Rational(6));
     const Schedule schedule = make_schedule(scene, *log);
     int hits = 0;
@@ -388,9 +387,9 @@ TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
       EXPECT_EQ(state.met_pairs.empty(), state.hits_per_s <= kMaxHitsPerSecond);
       for (const Hit& hit : state.hits) {
         ++hits;
-        const BodyCollision met = log->collision(hit.index);
+        const Collision met = log->collision(hit.index);
         EXPECT_EQ(hit.pair, (MetPair{met.first, met.second}));
-        const auto expect_on = [&](std::size_t body, const BodyMotion& motion) {
+        const auto expect_on = [&](std::size_t body, const Motion& motion) {
           const double x = hit.contact[0] - motion.position[0];
           const double y = hit.contact[1] - motion.position[1];
           const double reach = to_double(system.bodies[body].size) / (dimensions == 1 ? 2 : 1);

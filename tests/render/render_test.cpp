@@ -35,8 +35,8 @@ class RenderTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-Pixels painted(const Scene& scene, const BlockState& state) {
-  const auto log = make_collision_log(scene.system);
+Pixels painted(const Scene& scene, const PairState& state) {
+  const auto log = make_pair_log(scene.system);
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   canvas.paint(Composition(scene, *log).frame({state}));
   Pixels pixels(scene.view.width_px, scene.view.height_px);
@@ -55,7 +55,7 @@ TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {
   RenderJob job{article, path("out.mp4"), {}, 2};
   const std::int64_t frames = render(job, [](const Progress&) {}).frame_count;
   const DecodedVideo video = decode_video(job.output);
-  const auto log = make_collision_log(article.system);
+  const auto log = make_pair_log(article.system);
   const Schedule schedule = make_schedule(article, *log);
   ASSERT_EQ(std::int64_t(video.frames.size()), frames);
   ASSERT_EQ(frames, film_frames(schedule));
@@ -70,9 +70,9 @@ TEST_F(RenderTest, TheLastFrameReads314) {
   const Scene article = scene("12.2", "last");
   render({article, path("out.mp4"), {}, 2}, [](const Progress&) {});
   const DecodedVideo video = decode_video(path("out.mp4"));
-  const auto log = make_collision_log(article.system);
+  const auto log = make_pair_log(article.system);
   const Schedule schedule = make_schedule(article, *log);
-  BlockState state = log->blocks_at(schedule.time_of(film_frames(schedule) - 1));
+  PairState state = log->blocks_at(schedule.time_of(film_frames(schedule) - 1));
   ASSERT_EQ(state.count, 314);
   const double as_314 = error_between(video.frames.back().rgb, painted(article, state));
   for (const int other : {313, 315, 214, 324}) {

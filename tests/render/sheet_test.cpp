@@ -33,7 +33,7 @@ Scene any_run(Random& random) {
   return scene;
 }
 
-std::vector<Integer> counts_at(const std::vector<Instant>& instants, const CollisionLog& log) {
+std::vector<Integer> counts_at(const std::vector<Instant>& instants, const PairLog& log) {
   std::vector<Integer> counts;
   for (const Instant& instant : instants) {
     counts.push_back(log.blocks_at(time_of(instant, log)).count);
@@ -47,7 +47,7 @@ TEST(SheetInstants, AreEquallyFarApartInCount) {
   int spread = 0;
   for (int i = 0; i < many(300); ++i) {
     const Scene scene = any_run(random);
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const Span span = span_of(scene, *log);
     const Integer before = log->blocks_at(span.from).count;
     const Integer shown = log->blocks_at(span.to).count - before;
@@ -74,7 +74,7 @@ TEST(SheetInstants, AreEquallyFarApartInCount) {
 
 TEST(SheetInstants, AreEquallyFarApartInTime) {
   const Scene scene = scene_of_digits(9);
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Span span = span_of(scene, *log);
   const std::vector<Instant> instants = spread_instants(scene, 7, Spacing::time);
   for (int k = 0; k < 7; ++k) {

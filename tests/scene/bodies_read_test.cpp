@@ -82,7 +82,7 @@ TEST_F(BodiesFile, DiscsAreReadExactly) {
     position = [1.1, 2.2]
     velocity = ["-1/9", 1e-3]
   )");
-  const BodySystem& system = scene.system;
+  const System& system = scene.system;
   EXPECT_EQ(system.dimensions, 2);
   ASSERT_EQ(system.bodies.size(), 1U);
   EXPECT_EQ(system.bodies[0].position, vector_of("11/10", "11/5"));

@@ -15,7 +15,7 @@ namespace piblocks {
 namespace {
 
 std::vector<Move> paced(const Scene& scene) {
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   return moves_of(scene, *log, span_of(scene, *log));
 }
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include "scene/schedule.hpp"
 
@@ -21,7 +21,7 @@ Scene scene_with(int digits, const char* from, const char* to, const char* speed
 
 TEST(Frames, NumericEndIsExclusive) {
   const Scene scene = scene_with(3, "0", "1", "1", "60");
-  const Schedule schedule = make_schedule(scene, *make_collision_log(scene.system));
+  const Schedule schedule = make_schedule(scene, *make_pair_log(scene.system));
   EXPECT_EQ(film_frames(schedule), 60);
   EXPECT_EQ(schedule.time_of(0), 0);
   EXPECT_EQ(schedule.time_of(59), Rational(59, 60));
@@ -29,7 +29,7 @@ TEST(Frames, NumericEndIsExclusive) {
 
 TEST(Frames, TimesAreExactAtAnyRate) {
   const Scene scene = scene_with(3, "1/3", "100", "1/7", "30000/1001");
-  const Schedule schedule = make_schedule(scene, *make_collision_log(scene.system));
+  const Schedule schedule = make_schedule(scene, *make_pair_log(scene.system));
   EXPECT_EQ(schedule.time_of(12345),
             Rational(1) / 3 + Rational(12345) * Rational(1, 7) * Rational(1001, 30000));
   EXPECT_LT(schedule.time_of(film_frames(schedule) - 1), 100);
@@ -39,7 +39,7 @@ TEST(Frames, TimesAreExactAtAnyRate) {
 TEST(Frames, EndingWithTheLastCollisionShowsIt) {
   for (int digits = 1; digits <= 12; ++digits) {
     const Scene scene = scene_with(digits, "0", "last", "1", "60");
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const Schedule schedule = make_schedule(scene, *log);
     const std::int64_t last = film_frames(schedule) - 1;
     EXPECT_EQ(log->blocks_at(schedule.time_of(last)).count, log->last());
@@ -49,7 +49,7 @@ TEST(Frames, EndingWithTheLastCollisionShowsIt) {
 
 TEST(Frames, RefusesEmptyAndEndlessSpans) {
   const auto frames = [](const Scene& scene) {
-    return film_frames(make_schedule(scene, *make_collision_log(scene.system)));
+    return film_frames(make_schedule(scene, *make_pair_log(scene.system)));
   };
   EXPECT_THROW(frames(scene_with(3, "50", "last", "1", "60")), UsageError);
   EXPECT_THROW(frames(scene_with(3, "0", "1e9", "1", "60")), UsageError);

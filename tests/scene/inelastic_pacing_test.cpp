@@ -1,5 +1,5 @@
 // Automatic slow motion of blocks that lose energy, held to collisions that are stepped exactly.
-#include <piblocks/restitution.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <string>
 
@@ -52,14 +52,14 @@ struct Counts {
   Integer at;
 };
 
-Counts counts_at(const CollisionLog& log, const std::string& text, const char* hair = "1e-12") {
+Counts counts_at(const PairLog& log, const std::string& text, const char* hair = "1e-12") {
   const Rational time = time_of(parse_instant(text), log);
   return {log.blocks_at(time - parse_rational(hair)).count, log.blocks_at(time).count};
 }
 
 TEST(Instant, OfACollisionCountsExactlyThoseUntilIt) {
   for (int digits = 1; digits <= 40; ++digits) {
-    const auto log = make_collision_log(article_blocks(digits));
+    const auto log = make_pair_log(article_blocks(digits));
     const Integer total = log->last();
     for (const Integer& index : {Integer(1), Integer(2), Integer(total / 3 + 1),
                                  Integer((total + 1) / 2), Integer(total - 1), total}) {
@@ -81,7 +81,7 @@ TEST(Instant, OfTheLastCollisionCountsAllOfThem) {
                           ? Rational(power(10, static_cast<unsigned long>(random.integer(0, 24))))
                           : Rational(random.rational(0, 1000000, 997) + Rational(1, 100));
     system.red.position = 4 + random.rational(0, 5, 7);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     const Rational last = time_of(Instant::last(), *log);
     ASSERT_EQ(log->blocks_at(last).count, log->last()) << system.red.mass;
     const Integer index = 1 + (log->last() * random.integer(0, 1000)) / 1001;
@@ -93,7 +93,7 @@ TEST(Instant, OfTheLastCollisionCountsAllOfThem) {
 }
 
 TEST(Instant, OfTheFirstCollisionsIsExact) {
-  const auto log = make_collision_log(article_blocks(3));
+  const auto log = make_pair_log(article_blocks(3));
   EXPECT_EQ(time_of(Instant::collision(1), *log), 2);
   EXPECT_EQ(time_of(Instant::collision(2), *log), parse_rational("2.750075"));
   EXPECT_EQ(time_of(Instant::turn(), *log), Rational(7, 2));
@@ -102,7 +102,7 @@ TEST(Instant, OfTheFirstCollisionsIsExact) {
 TEST(Instant, OfAnEndlesslyLateCollisionIsFound) {
   TwoBlocks system = article_blocks(1);
   system.red.mass = 1 + 1 / power(2, 300);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->blocks_at(time_of(Instant::last(), *log)).count, 4);
   const Rational just_before = time_of(Instant::last(), *log) * (1 - parse_rational("1e-20"));
   EXPECT_EQ(log->blocks_at(just_before).count, 3);
@@ -113,7 +113,7 @@ TEST(Instant, KnowsCollisionsBeforeTimeZero) {
     TwoBlocks system;
     system.red.mass = parse_rational(ratio);
     system.red.velocity = 1;
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     EXPECT_EQ(log->last(), 0);
     EXPECT_LT(log->first_index(), 0);
     for (Integer index = log->first_index(); index <= 0; ++index) {
@@ -130,11 +130,11 @@ TEST(Instant, OfACollisionAtTimeZeroIsTimeZero) {
   TwoBlocks system;
   system.blue = {1, parse_rational("2.3"), Rational(1, 10), 1};
   system.red = {1000, parse_rational("3.3"), parse_rational("-0.7"), 1};
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->blocks_collision(1).time, Time{});
   EXPECT_EQ(time_of(Instant::collision(1), *log), 0);
   EXPECT_EQ(log->blocks_at(0).count, 1);
-  const auto batch = std::make_unique<CollisionBatch>();
+  const auto batch = std::make_unique<PairBatch>();
   log->stream(1, log->last())->read(*batch);
   EXPECT_EQ(batch->time_hi[0], 0);
   EXPECT_EQ(batch->time_lo[0], 0);
@@ -145,7 +145,7 @@ TEST(Instant, OfOneOfManyCollisionsAtOnceIsRefused) {
     TwoBlocks system;
     system.blue.position = Rational(1, 2);  // at rest on the wall: all collisions happen at once
     system.red.mass = parse_rational(mass);
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     ASSERT_GT(log->last(), 1);
     EXPECT_EQ(log->blocks_at(time_of(Instant::last(), *log)).count, log->last());
     EXPECT_THROW(time_of(Instant::collision(1), *log), UsageError);
@@ -155,7 +155,7 @@ TEST(Instant, OfOneOfManyCollisionsAtOnceIsRefused) {
 TEST(Instant, SaysWhatTheSceneHas) {
   const auto problem = [](const TwoBlocks& system, const char* text) {
     try {
-      time_of(parse_instant(text), *make_collision_log(system));
+      time_of(parse_instant(text), *make_pair_log(system));
     } catch (const UsageError& error) {
       return std::string(error.what());
     }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <string>
 #include <utility>
@@ -24,7 +24,7 @@ inline Scene paced_scene(const std::vector<Setting>& settings, int digits = 3) {
 }
 
 inline Schedule schedule_of(const Scene& scene) {
-  return make_schedule(scene, *make_collision_log(scene.system));
+  return make_schedule(scene, *make_pair_log(scene.system));
 }
 
 inline Schedule schedule_of(const std::vector<Setting>& settings, int digits = 3) {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <fstream>

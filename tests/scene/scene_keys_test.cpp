@@ -172,7 +172,7 @@ TEST(SceneKeys, RestitutionIsThatOfBlocksAndWall) {
   const auto expect = [&](const char* key, const char* text, const Rational& blocks,
                           const Rational& wall) {
     builder.set("test", key, text);
-    const BodySystem system = builder.build_scene().system;
+    const System system = builder.build_scene().system;
     EXPECT_EQ(system.restitution, blocks) << key;
     EXPECT_EQ(system.wall_restitution, wall) << key;
   };

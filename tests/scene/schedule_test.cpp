@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -53,7 +53,7 @@ TEST(Schedule, WindowsAreCutToWhatIsShown) {
 
 TEST(Schedule, MomentsAreMeasuredFromTurnAndLastCollision) {
   const Scene scene = paced_scene({{"time.to", "last+1"}, {"time.freeze", "turn:2,last+0.5:1"}});
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   expect_no_gaps(schedule);
   const auto stretches = schedule.stretches();
@@ -78,7 +78,7 @@ TEST(Schedule, DurationIsMetToTheFrame) {
 
 TEST(Schedule, DurationOfARunShownToItsEndEndsThere) {
   const Scene scene = paced_scene({{"time.to", "last+1"}, {"time.duration", "20"}});
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   EXPECT_EQ(frame_time(schedule, schedule.frame_count() - 1), log->time_after(log->last()) + 1);
 }
@@ -174,7 +174,7 @@ TEST(Schedule, DurationIsInPlaceOfASpeed) {
 TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
   for (int digits = 2; digits <= 3; ++digits) {
     const Scene scene = paced_scene({{"time.slow-motion", "auto"}}, digits);
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const Schedule schedule = make_schedule(scene, *log);
     expect_no_gaps(schedule);
     // At the turn, where the video stands in the middle of its slowest stretches.
@@ -226,7 +226,7 @@ TEST(Schedule, FewCollisionsNeedNoSlowMotion) {
 /// The end is the last picture, and stays where it is held. An end that is a time is seen only
 /// where it is held.
 void expect_end(const Scene& scene) {
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const Rational end = span_of(scene, *log).to;
   const Integer frames = schedule.frame_count();
@@ -267,7 +267,7 @@ TEST(Schedule, EndsWithThePictureOfTheEndInAnyPacing) {
     if (random.integer(0, 2) == 0) settings.emplace_back("time.duration", any({"5", "7.777"}));
     const Scene scene = paced_scene(settings, 2);
     try {
-      make_schedule(scene, *make_collision_log(scene.system));
+      make_schedule(scene, *make_pair_log(scene.system));
     } catch (const UsageError&) {  // a window or a freeze after the end
       continue;
     }

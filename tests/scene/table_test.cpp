@@ -2,7 +2,7 @@
 #include "scene/table.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cstring>
 #include <limits>
@@ -171,7 +171,7 @@ TEST(Table, HasTheHeaderOfNumpy) {
 }
 
 /// The rows of a run from its first collision to its last.
-std::string log_text(const BodySystem& system, TableFormat format) {
+std::string log_text(const System& system, TableFormat format) {
   const auto log = make_log(system, Rational(100));
   const Table table = collision_table(system);
   fmt::memory_buffer out;
@@ -180,13 +180,13 @@ std::string log_text(const BodySystem& system, TableFormat format) {
   return table.header(format, 1, log->last()) + std::string(out.data(), out.size());
 }
 
-std::string state_at(const BodySystem& system, const Rational& time, bool has_bounds = false) {
+std::string state_at(const System& system, const Rational& time, bool has_bounds = false) {
   return state_text(state_table(system, has_bounds),
                     state_row(*make_log(system, Rational(100)), time, has_bounds));
 }
 
 TEST(RunTables, BlueAndRedHaveColumnsOfTheirOwn) {
-  const BodySystem system = article_system(1);
+  const System system = article_system(1);
   EXPECT_EQ(log_text(system, TableFormat::csv),
             "index,time,kind,x_blue,x_red,v_blue,v_red\n"
             "1,2,blocks,2,3,-1,0\n2,3.5,wall,0.5,3,1,0\n3,5,blocks,2,3,0,1\n");
@@ -202,7 +202,7 @@ TEST(RunTables, BlueAndRedHaveColumnsOfTheirOwn) {
 }
 
 TEST(RunTables, OtherBodiesAreNumbered) {
-  BodySystem line{1, {{1, {0}, {1}}, {1, {4}}, {std::nullopt, {9}}}};
+  System line{1, {{1, {0}, {1}}, {1, {4}}, {std::nullopt, {9}}}};
   EXPECT_EQ(log_text(line, TableFormat::csv),
             "index,time,first,second,x_first,x_second,v_first,v_second\n"
             "1,3,1,2,3,4,0,1\n2,7,2,3,8,9,-1,0\n3,11,1,2,3,4,-1,0\n");
@@ -215,7 +215,7 @@ TEST(RunTables, OtherBodiesAreNumbered) {
 }
 
 TEST(RunTables, InAPlaneTheyHaveTwoCoordinates) {
-  const BodySystem plane{2, {{1, {1, 3}, {0, -1}}}, {{"floor", {0, 0}, {0, 1}}}};
+  const System plane{2, {{1, {1, 3}, {0, -1}}}, {{"floor", {0, 0}, {0, 1}}}};
   EXPECT_EQ(log_text(plane, TableFormat::csv),
             "index,time,first,second,x_first,y_first,x_second,y_second,vx_first,vy_first,vx_second,"
             "vy_second\n1,2,1,floor,1,1,0,0,0,1,0,0\n");

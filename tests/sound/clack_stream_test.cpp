@@ -22,7 +22,7 @@ double sum(const std::vector<Clack>& clacks, CollisionKind kind) {
   return total;
 }
 
-void expect_all_collisions(const CollisionLog& log, const std::vector<Clack>& clacks) {
+void expect_all_collisions(const PairLog& log, const std::vector<Clack>& clacks) {
   for (const CollisionKind kind : {CollisionKind::wall, CollisionKind::blocks}) {
     const auto all = log.impact(kind, 1, log.last());
     const double expected = all ? all->impulse : 0;
@@ -32,13 +32,13 @@ void expect_all_collisions(const CollisionLog& log, const std::vector<Clack>& cl
 
 TEST(ClackStream, HasEachCollisionAtItsSample) {
   for (int digits = 1; digits <= 3; ++digits) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_pair_log(article_system(digits));
     for (const char* speed : {"1", "1/20", "7/3"}) {
       const Rational s(speed);
       const std::vector<Clack> clacks = clacks_of(*log, {{0, 1, s}}, 12 / s);
       ASSERT_EQ(clacks.size(), log->last().get_ui()) << digits << " digits at " << speed;
       for (std::size_t i = 0; i < clacks.size(); ++i) {
-        const Collision c = log->blocks_collision(Integer(i + 1));
+        const PairCollision c = log->blocks_collision(Integer(i + 1));
         EXPECT_EQ(clacks[i].kind, c.kind);
         EXPECT_NEAR(clacks[i].sample, (c.time.hi - 1) / to_double(s) * kRate_hz, 1e-6);
         EXPECT_NEAR(clacks[i].position, c.blue.position, 1e-12);
@@ -53,7 +53,7 @@ TEST(ClackStream, FollowsEasesStepByStep) {
   scene.system = article_system(3);
   scene.time.to = Rational(7);
   scene.pacing.automatic_slow_motion = true;
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const auto stretches = schedule.stretches();
   ASSERT_GT(stretches.size(), 50U);
@@ -67,7 +67,7 @@ TEST(ClackStream, FollowsEasesStepByStep) {
 }
 
 TEST(ClackStream, BackwardsHasTheSameInReverseOrder) {
-  const auto log = make_collision_log(article_system(3));
+  const auto log = make_pair_log(article_system(3));
   const std::vector<Clack> forwards = clacks_of(*log, {{0, 1, 1}}, 12);
   std::vector<Clack> backwards = clacks_of(*log, {{0, 13, -1}}, 12);
   std::ranges::reverse(backwards);
@@ -80,7 +80,7 @@ TEST(ClackStream, BackwardsHasTheSameInReverseOrder) {
 }
 
 TEST(ClackStream, IsSilentWhereTheFilmStandsStill) {
-  const auto log = make_collision_log(article_system(2));
+  const auto log = make_pair_log(article_system(2));
   const Time seventh = log->blocks_collision(7).time;
   const Rational stop = to_rational(seventh);  // the instant of a collision
   // Up to the collision, 2 s of standing, and on.
@@ -102,7 +102,7 @@ TEST(ClackStream, IsSilentWhereTheFilmStandsStill) {
 
 TEST(ClackStream, LosesNothingHoweverManyCollisionsThereAre) {
   for (int digits : {4, 6, 9, 20, 100}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_pair_log(article_system(digits));
     const std::vector<Clack> clacks = clacks_of(*log, {{0, 0, 1}}, 20);
     EXPECT_LT(clacks.size(), 20'000u) << digits;
     expect_all_collisions(*log, clacks);
@@ -114,7 +114,7 @@ TEST(ClackStream, LosesNothingHoweverManyCollisionsThereAre) {
 
 TEST(ClackStream, IsInOrder) {
   for (int digits : {3, 8}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_pair_log(article_system(digits));
     const std::vector<Clack> clacks = clacks_of(*log, {{0, 0, 1}}, 10);
     for (std::size_t i = 1; i < clacks.size(); ++i) {
       EXPECT_GT(clacks[i].sample, clacks[i - 1].sample - 0.125);
@@ -125,7 +125,7 @@ TEST(ClackStream, IsInOrder) {
 TEST(ClackStream, HearsWhatHappensInTheFirstFrame) {
   TwoBlocks system = article_blocks(3);
   system.red.position = 3;  // touching, and moving in: the blocks meet at time 0
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   ASSERT_EQ(log->blocks_collision(1).time.hi, 0);
   const Rational half(1, 2);
   for (const std::vector<Stretch>& stretches : {std::vector<Stretch>{{0, 0, 1}},
@@ -139,7 +139,7 @@ TEST(ClackStream, HearsWhatHappensInTheFirstFrame) {
 }
 
 TEST(ClackStream, HearsTheFirstInstantOnceWhicheverWayTheFilmGoesOn) {
-  const auto log = make_collision_log(article_system(1));
+  const auto log = make_pair_log(article_system(1));
   ASSERT_EQ(log->blocks_collision(1).time.hi, 2);
   for (const int speed : {1, -1}) {
     const std::vector<Clack> clacks = clacks_of(*log, {{0, 2, 0}, {1, 2, speed}}, 2);
@@ -152,7 +152,7 @@ TEST(ClackStream, HearsTheFirstInstantOnceWhicheverWayTheFilmGoesOn) {
 TEST(ClackStream, HearsACornerAsOneBlowOfEachKind) {
   TwoBlocks system = article_blocks(3);
   system.blue.position = Rational(1, 2);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const std::vector<Clack> clacks = clacks_of(*log, {{0, 0, 1}}, 10);
   ASSERT_EQ(clacks.size(), 2u);
   for (const Clack& clack : clacks) {
@@ -166,7 +166,7 @@ TEST(ClackStream, HearsWhatWasBeforeTimeZero) {
   system.blue.position = 3;
   system.red.position = 5;
   system.red.velocity = 1;  // they have met at time -1
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const std::vector<Clack> clacks = clacks_of(*log, {{0, -3, 1}}, 5);
   ASSERT_FALSE(clacks.empty());
   EXPECT_NEAR(clacks.back().sample, 2 * kRate_hz, 1e-6);
@@ -174,7 +174,7 @@ TEST(ClackStream, HearsWhatWasBeforeTimeZero) {
 
 TEST(ClackStream, SlowsDownToCollisionsThatShareADouble) {
   // About 1e-21 s of the turn of 12 digits, a second of film.
-  const auto log = make_collision_log(article_system(12));
+  const auto log = make_pair_log(article_system(12));
   const Integer index = log->last() / 3;
   const Rational begin = to_rational(log->blocks_collision(index).time);
   const Rational end = to_rational(log->blocks_collision(index + 5).time);

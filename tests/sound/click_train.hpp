@@ -2,7 +2,7 @@
 // In: clacks or collisions. Out: the band-limited pulses they become, added up.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -37,7 +37,7 @@ class ClickTrain {
 };
 
 /// All clacks of a film that shows this, from `from` on at one speed.
-inline std::vector<Clack> clacks_of(const CollisionLog& log, const std::vector<Stretch>& stretches,
+inline std::vector<Clack> clacks_of(const PairLog& log, const std::vector<Stretch>& stretches,
                                     const Rational& duration_s) {
   ClackStream stream(log, stretches, duration_s, 48000);
   std::vector<Clack> clacks;

@@ -27,7 +27,7 @@ double level_db(const std::vector<double>& samples) {
 
 TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
   for (int digits : {4, 5, 6}) {
-    const auto log = make_collision_log(article_system(digits));
+    const auto log = make_pair_log(article_system(digits));
     const Rational begin = Rational(7, 2) - Rational(1, 5);
     const std::size_t size = 19200;
     ClickTrain together(size);
@@ -36,7 +36,7 @@ TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
     }
     ClickTrain all(size);
     const auto stream = log->stream(1, log->last());
-    CollisionBatch batch;
+    PairBatch batch;
     const double r = to_double(1 / article_blocks(digits).red.mass);
     while (stream->read(batch)) {
       for (std::size_t i = 0; i < batch.size; ++i) {
@@ -59,7 +59,7 @@ TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
 
 /// The compressed clicks of 20 digits around the turn.
 std::vector<double> clicks() {
-  const auto log = make_collision_log(article_system(20));
+  const auto log = make_pair_log(article_system(20));
   const Rational begin = Rational(7, 2) - Rational(1, 5);
   const std::vector<Clack> clacks = clacks_of(*log, {{0, begin, 1}}, Rational(2, 5));
   ClickTrain train(19200);

@@ -23,7 +23,7 @@ struct Track {
 
 Track track_of(const Scene& scene, const std::vector<Stretch>& stretches,
                const Rational& duration_s, std::size_t block = 1000) {
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   Soundtrack soundtrack(
       {Voice{.scene = scene, .log = *log, .stretches = stretches, .end_s = duration_s}},
       duration_s);
@@ -60,7 +60,7 @@ TEST(Soundtrack, BeginsEachClackAtItsCollision) {
     // So slow that no clack rings into the next.
     const Rational speed(1, digits == 3 ? 400 : 8);
     const Scene scene = article(digits);
-    const auto log = make_collision_log(scene.system);
+    const auto log = make_pair_log(scene.system);
     const Rational begin = digits == 3 ? Rational("348/100") : Rational(1);
     const Rational duration_s = digits == 3 ? 16 : 90;
     const Track track = track_of(scene, {{0, begin, speed}}, duration_s);

@@ -1,7 +1,7 @@
 // Mass ratios nearest to those whose last collision is never reached.
 #include <gtest/gtest.h>
 #include <mpfr.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ TEST(CotangentRatios, AreCountedOnTheRightSide) {
     system.red.mass = Rational(cotangent_squared(n));
     const Integer total = oracle::high_precision_total(system);
     EXPECT_EQ(count_collisions(system), total) << "n = " << n;
-    EXPECT_EQ(make_collision_log(system)->last(), total) << "n = " << n;
+    EXPECT_EQ(make_pair_log(system)->last(), total) << "n = " << n;
     EXPECT_TRUE(total == n - 1 || total == n) << "n = " << n << ": " << total;
     above += total == n ? 1 : 0;
   }

@@ -12,7 +12,7 @@
 namespace piblocks::stress {
 namespace {
 
-void check_systems(const std::function<BodySystem(Random&)>& draw, double expected,
+void check_systems(const std::function<System(Random&)>& draw, double expected,
                    std::int64_t number = 2000) {
   Random random(71);
   SCOPED_TRACE(random.trace());
@@ -21,7 +21,7 @@ void check_systems(const std::function<BodySystem(Random&)>& draw, double expect
   std::int64_t complete = 0;
   double widest = 0;
   for (std::int64_t k = 0; k < systems; ++k) {
-    const BodySystem system = draw(random);
+    const System system = draw(random);
     const CertaintyCheck check = check_certainty(system, 500);
     for (const std::string& wrong : check.wrong) ADD_FAILURE() << "system " << k << ": " << wrong;
     certain += check.certain;
@@ -42,7 +42,7 @@ TEST(DiscCertaintyStress, OfDiscsThatMeetByCoincidence) { check_systems(random_c
 
 TEST(DiscCertaintyStress, OfDiscsInCells) {
   const auto draw = [](Random& random) {
-    BodySystem system = random_gas(random, static_cast<std::uint32_t>(random.integer(20, 30)), 3);
+    System system = random_gas(random, static_cast<std::uint32_t>(random.integer(20, 30)), 3);
     if (random.integer(0, 1) == 0) system.walls.clear();
     system.bodies.push_back({Rational(50), {-9, 5}, {Rational(1), 0}, 8});
     for (Wall& wall : system.walls) {

@@ -41,20 +41,20 @@ class HardCases : public testing::TestWithParam<HardCase> {};
 TEST_P(HardCases, HaveTheirTotal) {
   const TwoBlocks system = GetParam().system();
   EXPECT_EQ(count_collisions(system), GetParam().total);
-  EXPECT_EQ(make_collision_log(system)->last(), GetParam().total);
+  EXPECT_EQ(make_pair_log(system)->last(), GetParam().total);
   EXPECT_EQ(oracle::high_precision_total(system), GetParam().total);
 }
 
 TEST_P(HardCases, HaveAConsistentLog) {
   const TwoBlocks system = GetParam().system();
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const Bounds bounds(system);
   for (Integer k = 1; k <= log->last(); ++k) expect_consistent(system, *log, k, bounds);
 }
 
 TEST_P(HardCases, AreWhereTheOracleSaysAtHardTimes) {
   const TwoBlocks system = GetParam().system();
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const Bounds bounds(system);
   const bool meets = log->last() > 0;
   const Rational turn =
@@ -70,12 +70,12 @@ TEST_P(HardCases, AreWhereTheOracleSaysAtHardTimes) {
 
 TEST_P(HardCases, CountEveryCollisionAtItsExactTime) {
   const TwoBlocks system = GetParam().system();
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
   ASSERT_EQ(log->last(), run.size());
   for (std::size_t i = 0; i < run.size(); ++i) {
     const oracle::ExactState exact = oracle::exact_state(system, run, run[i].time);
-    const BlockState state = log->blocks_at(run[i].time);
+    const PairState state = log->blocks_at(run[i].time);
     ASSERT_EQ(state.count, exact.count) << "at the time of collision " << i + 1;
     EXPECT_EQ(log->blocks_collision(Integer(i + 1)).kind, run[i].kind);
   }
@@ -124,13 +124,13 @@ TEST(HardNumbers, DenormalMassesAreTheDoublesTheyAre) {
   system.red.mass = Rational(5e-320);
   EXPECT_EQ(system.red.mass / system.blue.mass, 10120) << "neither is the decimal that was written";
   EXPECT_EQ(count_collisions(system), 316);
-  EXPECT_EQ(make_collision_log(system)->last(), 316);
+  EXPECT_EQ(make_pair_log(system)->last(), 316);
 }
 
 TEST(HardNumbers, TimesBeyondADoubleAreAnError) {
   TwoBlocks system;
   system.red.velocity = -Rational(5e-324);  // meets blue after 4e323 units of time
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->last(), 314);
   EXPECT_THROW(log->blocks_collision(1), SimulationError);
   EXPECT_THROW(log->blocks_at(power(10, 400)), SimulationError);

@@ -89,7 +89,7 @@ Rational Bounds::time(const Rational& time) const {
          Rational(0x1p-1074);
 }
 
-void expect_possible(const TwoBlocks& system, const BlockState& state) {
+void expect_possible(const TwoBlocks& system, const PairState& state) {
   ASSERT_TRUE(std::isfinite(state.blue.position) && std::isfinite(state.blue.velocity) &&
               std::isfinite(state.red.position) && std::isfinite(state.red.velocity))
       << "blue " << state.blue.position << " with " << state.blue.velocity << ", red "
@@ -107,7 +107,7 @@ void expect_possible(const TwoBlocks& system, const BlockState& state) {
   EXPECT_GE(to_wide(y2 - y1), -1.01L * (blue_rounding + red_rounding)) << "overlap";
 }
 
-void expect_energy_kept(const BlockState& state, const Bounds& bounds) {
+void expect_energy_kept(const PairState& state, const Bounds& bounds) {
   expect_near("speed", std::hypot(bounds.sigma() * state.blue.velocity, Wide(state.red.velocity)),
               bounds.speed(), 8 * kUnit * bounds.speed() + (1 + bounds.sigma()) * kLeast);
 }
@@ -115,13 +115,13 @@ void expect_energy_kept(const BlockState& state, const Bounds& bounds) {
 namespace {
 
 /// r v_blue + v_red and the relative velocity, before and after a collision of the blocks.
-void expect_momentum_kept(const TwoBlocks& system, const CollisionLog& log, const Collision& now,
+void expect_momentum_kept(const TwoBlocks& system, const PairLog& log, const PairCollision& now,
                           const Bounds& bounds) {
   if (now.kind != CollisionKind::blocks) return;
   Wide blue_before = to_double(system.blue.velocity);
   Wide red_before = to_double(system.red.velocity);
   if (now.index > 1) {
-    const Collision before = log.blocks_collision(now.index - 1);
+    const PairCollision before = log.blocks_collision(now.index - 1);
     blue_before = before.blue.velocity;
     red_before = before.red.velocity;
   }
@@ -132,10 +132,10 @@ void expect_momentum_kept(const TwoBlocks& system, const CollisionLog& log, cons
               blue_before - red_before, (1 + 1 / sigma) * 2 * bounds.velocity());
 }
 
-void expect_state_of(const CollisionLog& log, const Collision& now, const Bounds& bounds) {
+void expect_state_of(const PairLog& log, const PairCollision& now, const Bounds& bounds) {
   const Rational time = to_rational(now.time);
-  const BlockState state = log.blocks_at(time);
-  const BlockState after = state_after(log, now.index);
+  const PairState state = log.blocks_at(time);
+  const PairState after = state_after(log, now.index);
   EXPECT_EQ(after.blue.position, now.blue.position);
   EXPECT_EQ(after.red.velocity, now.red.velocity);
   // The true collision may be a little later or earlier, and blue then as fast as ever.
@@ -149,9 +149,9 @@ void expect_state_of(const CollisionLog& log, const Collision& now, const Bounds
 }
 
 /// Collision `now` is followed by the next one, and states between them know.
-void expect_order(const CollisionLog& log, const Collision& now, const Bounds& bounds) {
+void expect_order(const PairLog& log, const PairCollision& now, const Bounds& bounds) {
   const Rational time = to_rational(now.time);
-  const Collision next = log.blocks_collision(now.index + 1);
+  const PairCollision next = log.blocks_collision(now.index + 1);
   const Rational next_time = to_rational(next.time);
   EXPECT_NE(now.kind, next.kind);
   const Rational doubt = bounds.time(time) + bounds.time(next_time);
@@ -168,12 +168,12 @@ void expect_order(const CollisionLog& log, const Collision& now, const Bounds& b
 
 }  // namespace
 
-void expect_consistent(const TwoBlocks& system, const CollisionLog& log, const Integer& index,
+void expect_consistent(const TwoBlocks& system, const PairLog& log, const Integer& index,
                        const Bounds& bounds) {
   SCOPED_TRACE("collision " + index.get_str());
-  const Collision now = log.blocks_collision(index);
+  const PairCollision now = log.blocks_collision(index);
   const Rational time = to_rational(now.time);
-  const BlockState just_after = state_after(log, index);
+  const PairState just_after = state_after(log, index);
   EXPECT_EQ(now.index, index);
   EXPECT_GE(time, -bounds.time(time));
   expect_possible(system, just_after);
@@ -190,9 +190,9 @@ void expect_consistent(const TwoBlocks& system, const CollisionLog& log, const I
 /// Beyond those that the ratio of the masses asks for: lengths and velocities differ as much.
 constexpr std::int64_t kOracle_bits = 1000;
 
-void expect_oracles_state(const TwoBlocks& system, const CollisionLog& log, const Rational& time,
+void expect_oracles_state(const TwoBlocks& system, const PairLog& log, const Rational& time,
                           const Bounds& bounds) {
-  const BlockState state = log.blocks_at(time);
+  const PairState state = log.blocks_at(time);
   const oracle::ExactState exact = oracle::high_precision_state(system, time, kOracle_bits);
   SCOPED_TRACE("t = " + time.get_str());
   EXPECT_EQ(state.count, exact.count);

@@ -2,7 +2,7 @@
 // In: a system, its log, and a time or an index. Out: GoogleTest failures.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 namespace piblocks::stress {
 
@@ -52,15 +52,15 @@ class Bounds {
 };
 
 /// Numbers are finite and the blocks in their order.
-void expect_possible(const TwoBlocks& system, const BlockState& state);
+void expect_possible(const TwoBlocks& system, const PairState& state);
 /// The velocities have the energy of the start.
-void expect_energy_kept(const BlockState& state, const Bounds& bounds);
+void expect_energy_kept(const PairState& state, const Bounds& bounds);
 /// Collision `index` and its neighbours in the log: their order, momentum, and the states just
 /// before, at and between them.
-void expect_consistent(const TwoBlocks& system, const CollisionLog& log, const Integer& index,
+void expect_consistent(const TwoBlocks& system, const PairLog& log, const Integer& index,
                        const Bounds& bounds);
 /// The state at `time` is the oracle's, to the a-priori bound.
-void expect_oracles_state(const TwoBlocks& system, const CollisionLog& log, const Rational& time,
+void expect_oracles_state(const TwoBlocks& system, const PairLog& log, const Rational& time,
                           const Bounds& bounds);
 
 }  // namespace piblocks::stress

@@ -2,7 +2,7 @@
 // In: a source of random numbers. Out: a valid TwoBlocks.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <string>
 

@@ -32,7 +32,7 @@ std::vector<Integer> some_indices(Random& random, const Integer& size) {
 }
 
 /// Times at every scale before, about and after the turning point.
-std::vector<Rational> some_times(Random& random, const CollisionLog& log) {
+std::vector<Rational> some_times(Random& random, const PairLog& log) {
   std::vector<Rational> times = {0};
   const auto scattered = [&] {
     return Rational(random.uniform(-1, 1) * std::pow(10.0, random.uniform(-8, 8)));
@@ -69,7 +69,7 @@ bool leaves_doubles(const TwoBlocks& system) {
 template <typename Check>
 void for_answers(const TwoBlocks& system, const Check& check) {
   SCOPED_TRACE(describe(system));
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->last(), count_collisions(system));
   try {
     check(*log);
@@ -78,13 +78,13 @@ void for_answers(const TwoBlocks& system, const Check& check) {
   }
 }
 
-void expect_invariants(Random& random, const TwoBlocks& system, const CollisionLog& log) {
+void expect_invariants(Random& random, const TwoBlocks& system, const PairLog& log) {
   const Bounds bounds(system);
   for (const Integer& index : some_indices(random, log.last())) {
     expect_consistent(system, log, index, bounds);
   }
   for (const Rational& time : some_times(random, log)) {
-    const BlockState state = log.blocks_at(time);
+    const PairState state = log.blocks_at(time);
     expect_possible(system, state);
     expect_energy_kept(state, bounds);
     EXPECT_LE(state.count, log.last());
@@ -95,7 +95,7 @@ void expect_invariants(Random& random, const TwoBlocks& system, const CollisionL
 TEST(RandomSystems, KeepEveryInvariant) {
   for_each_case(5'000, 1'000'000, [](Random& random) {
     const TwoBlocks system = random_system(random);
-    for_answers(system, [&](const CollisionLog& log) { expect_invariants(random, system, log); });
+    for_answers(system, [&](const PairLog& log) { expect_invariants(random, system, log); });
   });
 }
 
@@ -105,14 +105,14 @@ TEST(RandomSystems, HaveTheOraclesTotals) {
     SCOPED_TRACE(describe(system));
     const Integer total = oracle::high_precision_total(system);
     EXPECT_EQ(count_collisions(system), total);
-    EXPECT_EQ(make_collision_log(system)->last(), total);
+    EXPECT_EQ(make_pair_log(system)->last(), total);
   });
 }
 
 TEST(RandomSystems, AreWhereTheOracleSays) {
   for_each_case(5'000, 3'000'000, [](Random& random) {
     const TwoBlocks system = random_system(random);
-    for_answers(system, [&](const CollisionLog& log) {
+    for_answers(system, [&](const PairLog& log) {
       // One time each: the oracle is slow.
       const std::vector<Rational> times = some_times(random, log);
       const auto chosen = static_cast<std::size_t>(random.integer(0, std::ssize(times) - 1));
@@ -129,7 +129,7 @@ TEST(RandomSystems, OfAnySizeGiveFiniteNumbersOrSayWhyNot) {
     const TwoBlocks system = random_system_of_any_size(random);
     SCOPED_TRACE(describe(system));
     try {
-      expect_invariants(random, system, *make_collision_log(system));
+      expect_invariants(random, system, *make_pair_log(system));
       ++answered;
     } catch (const SimulationError&) {
     }
@@ -149,9 +149,9 @@ TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
       return;
     }
     try {
-      const auto log = make_collision_log(system, Engine::events);
+      const auto log = make_pair_log(system, Engine::events);
       for (const Integer& index : some_indices(random, log->last())) {
-        const Collision now = log->blocks_collision(index);
+        const PairCollision now = log->blocks_collision(index);
         for (const double number : {now.time.hi, now.blue.position, now.blue.velocity,
                                     now.red.position, now.red.velocity}) {
           EXPECT_TRUE(std::isfinite(number));
@@ -172,7 +172,7 @@ TEST(RandomSystems, BeyondTheClosedFormAreCountedAndRefused) {
         system.blue.mass * power(2, static_cast<unsigned long>(random.integer(2002, 4000)));
     if (system.blue.velocity == 0 && system.red.velocity == 0) return;
     EXPECT_EQ(count_collisions(system), oracle::high_precision_total(system));
-    EXPECT_THROW(make_collision_log(system), UsageError);
+    EXPECT_THROW(make_pair_log(system), UsageError);
   });
 }
 

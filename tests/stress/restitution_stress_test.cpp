@@ -35,7 +35,7 @@ Rational wild_restitution(Random& random) {
 }
 
 /// The last collision, the first and those between, at the times that they are said to have.
-void expect_own_times(const CollisionLog& log) {
+void expect_own_times(const PairLog& log) {
   if (log.last() == 0) return;
   for (int quarter = 0; quarter <= 4; ++quarter) {
     const Integer index = 1 + (log.last() - 1) * quarter / 4;
@@ -65,7 +65,7 @@ TEST(RestitutionStress, NumbersOfAnySize) {
     system.wall_restitution = wild_restitution(random);
     if (is_elastic(system) || !problems_of(system_of(system)).empty()) continue;
     SCOPED_TRACE(describe_inelastic(system));
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     expect_own_times(*log);
     EXPECT_EQ(is_endless(*log), collapse_of(system).has_value());
     if (is_endless(*log)) continue;

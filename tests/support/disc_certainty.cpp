@@ -17,7 +17,7 @@ constexpr mpfr_prec_t kBits = 400;
 
 /// A collision of the engine with the bounds of both bodies after it.
 struct BoundedStep {
-  BodyStep step;
+  SteppedCollision step;
   std::array<discs::Bound, 2> bounds;
 };
 
@@ -33,14 +33,14 @@ double distance(const std::array<double, 2>& computed, const std::array<Real, 2>
 
 class Comparison {
  public:
-  Comparison(const BodySystem& system, std::size_t limit)
+  Comparison(const System& system, std::size_t limit)
       : system_(system), engine_(make_disc_stepper(system, discs::Search::cells)), truth_(system) {
     take_certain_steps(limit);
   }
 
   CertaintyCheck result() {
     for (const BoundedStep& bounded : steps_) {
-      const BodyStep& step = bounded.step;
+      const SteppedCollision& step = bounded.step;
       queue_of(step.first).push_back(&bounded);
       if (step.second < system_.bodies.size()) queue_of(step.second).push_back(&bounded);
     }
@@ -57,7 +57,7 @@ class Comparison {
  private:
   void take_certain_steps(std::size_t limit) {
     while (steps_.size() < limit) {
-      const std::optional<BodyStep> step = engine_->step();
+      const std::optional<SteppedCollision> step = engine_->step();
       if (!step) {
         check_.is_complete = engine_->certainty().until == Certainty::kForEver;
         break;
@@ -107,7 +107,7 @@ class Comparison {
   }
 
   void compare_numbers(const BoundedStep& bounded, const Real& time) {
-    const BodyStep& step = bounded.step;
+    const SteppedCollision& step = bounded.step;
     largest_time_error_ =
         std::max({largest_time_error_, bounded.bounds[0].time_error, bounded.bounds[1].time_error});
     compare_motion(step, step.first, step.first_after, bounded.bounds[0], time);
@@ -116,7 +116,7 @@ class Comparison {
     }
   }
 
-  void compare_motion(const BodyStep& step, std::uint32_t body, const BodyMotion& motion,
+  void compare_motion(const SteppedCollision& step, std::uint32_t body, const Motion& motion,
                       const discs::Bound& bound, const Real& time) {
     if (!system_.bodies[body].mass) return;
     const PreciseDiscs::Flight& flight = truth_.flight(body);
@@ -128,7 +128,7 @@ class Comparison {
     hold(step, "velocity", distance(motion.velocity, flight.velocity), bound.velocity);
   }
 
-  void hold(const BodyStep& step, const char* what, double error, double bound) {
+  void hold(const SteppedCollision& step, const char* what, double error, double bound) {
     if (error > 0) check_.widest = std::max(check_.widest, error / bound);
     if (error <= bound) return;
     complain(fmt::format("{} of {} and {} at {}: off by {}, bound {}", what, step.first,
@@ -153,7 +153,7 @@ class Comparison {
 
   void complain(const std::string& what) { check_.wrong.push_back(what); }
 
-  const BodySystem& system_;
+  const System& system_;
   std::unique_ptr<DiscStepper> engine_;
   PreciseDiscs truth_;
   double until_ = Certainty::kForEver;
@@ -167,7 +167,7 @@ class Comparison {
 
 }  // namespace
 
-CertaintyCheck check_certainty(const BodySystem& system, std::size_t limit) {
+CertaintyCheck check_certainty(const System& system, std::size_t limit) {
   return Comparison(system, limit).result();
 }
 

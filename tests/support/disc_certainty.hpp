@@ -1,8 +1,8 @@
 // Whether what the engine for discs calls certain is true.
-// In: a BodySystem. Out: how much was certain, and everything that was wrong with it.
+// In: a System. Out: how much was certain, and everything that was wrong with it.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <cstddef>
 #include <string>
@@ -18,6 +18,6 @@ struct CertaintyCheck {
 };
 
 /// Steps until something is not certain, or the limit, and compares with PreciseDiscs.
-CertaintyCheck check_certainty(const BodySystem& system, std::size_t limit = 2000);
+CertaintyCheck check_certainty(const System& system, std::size_t limit = 2000);
 
 }  // namespace piblocks

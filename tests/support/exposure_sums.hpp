@@ -9,7 +9,7 @@
 namespace piblocks {
 
 /// The share of the time in which the block's centre is at or below `position`, summed over pieces.
-inline double share_below(const Exposure& exposure, BlockName block, double position) {
+inline double share_below(const PairExposure& exposure, BlockName block, double position) {
   double share = 0;
   for (const UniformPiece& piece : exposure.pieces) {
     const auto [low, high] = std::minmax(piece.of(block).from, piece.of(block).to);
@@ -21,7 +21,7 @@ inline double share_below(const Exposure& exposure, BlockName block, double posi
 }
 
 /// The integral of that share up to `position`, summed over pieces.
-inline double area_of_pieces(const Exposure& exposure, BlockName block, double position) {
+inline double area_of_pieces(const PairExposure& exposure, BlockName block, double position) {
   double area = 0;
   for (const UniformPiece& piece : exposure.pieces) {
     area += piece.share * piece.of(block).area_below(position);
@@ -30,7 +30,7 @@ inline double area_of_pieces(const Exposure& exposure, BlockName block, double p
 }
 
 /// The same integral as drawing takes it.
-inline double area_below(const Exposure& exposure, BlockName block, double position) {
+inline double area_below(const PairExposure& exposure, BlockName block, double position) {
   return exposure.area_below ? exposure.area_below(block, position)
                              : area_of_pieces(exposure, block, position);
 }

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/restitution.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cmath>
 #include <memory>
@@ -100,7 +99,7 @@ inline void expect_rounded(double given, const Rational& exact, const char* what
       << what << " " << given << ", not " << wanted;
 }
 
-inline void expect_state(const CollisionLog& log, const Rational& time,
+inline void expect_state(const PairLog& log, const Rational& time,
                          const oracle::InelasticRun& run) {
   SCOPED_TRACE("t = " + time.get_str().substr(0, 80));
   const std::size_t count = run.count_at(time);
@@ -110,7 +109,7 @@ inline void expect_state(const CollisionLog& log, const Rational& time,
   const Rational since = count == 0 ? Rational(0) : run.events[count - 1].time;
   blue.position += blue.velocity * (time - since);
   red.position += red.velocity * (time - since);
-  const BlockState state = log.blocks_at(time);
+  const PairState state = log.blocks_at(time);
   EXPECT_EQ(state.count, Integer(count));
   expect_rounded(state.blue.position, blue.position, "blue.position");
   expect_rounded(state.red.position, red.position, "red.position");
@@ -126,12 +125,12 @@ inline void expect_state(const CollisionLog& log, const Rational& time,
   EXPECT_LE(abs(Rational(state.red.position) - red.position), Rational(bounds->red));
 }
 
-inline void expect_collision(const CollisionLog& log, const oracle::InelasticRun& run,
+inline void expect_collision(const PairLog& log, const oracle::InelasticRun& run,
                              std::size_t place) {
   const oracle::InelasticEvent& event = run.events[place];
   const Integer index = place + 1;
   SCOPED_TRACE("collision " + index.get_str());
-  const Collision collision = log.blocks_collision(index);
+  const PairCollision collision = log.blocks_collision(index);
   EXPECT_EQ(collision.kind, event.kind);
   EXPECT_LE(abs(to_rational(collision.time) - event.time), event.time * power(Rational(1, 2), 104));
   expect_rounded(collision.blue.position, event.blue.position, "blue.position");
@@ -159,7 +158,7 @@ inline void expect_collision(const CollisionLog& log, const oracle::InelasticRun
 }
 
 /// Impulses of all listed collisions of `run`, of both kinds, against their exact sums.
-inline void expect_impulses(const CollisionLog& log, const oracle::InelasticRun& run) {
+inline void expect_impulses(const PairLog& log, const oracle::InelasticRun& run) {
   const TwoBlocks& s = log.blocks();
   const Rational& m = s.blue.mass;
   const Rational unit = 2 * m * s.red.mass / (m + s.red.mass);
@@ -213,7 +212,7 @@ inline void expect_collapse(const TwoBlocks& system, const oracle::InelasticRun&
 inline void expect_like_steps(const TwoBlocks& system, Random& random, std::size_t max_events) {
   SCOPED_TRACE(describe_inelastic(system));
   oracle::InelasticRun run = oracle::inelastic_run(system, max_events);
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   EXPECT_EQ(log->first_index(), 1);
   const auto collapse = collapse_of(system);
   if (run.ended) {

@@ -2,7 +2,7 @@
 // In: a TwoBlocks. Out: its first collisions exactly. Shares no formula with the library.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <piblocks/exact.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -59,7 +59,7 @@ ExactState high_precision_state(const TwoBlocks& system, const Rational& t,
                                 std::int64_t extra_bits = 0);
 
 /// One collision by the same geometry: where the line crosses its ray. For a line that misses the
-/// corner and crosses it. @param index  as in CollisionLog
+/// corner and crosses it. @param index  as in PairLog
 ExactEvent high_precision_collision(const TwoBlocks& system, const Integer& index,
                                     std::int64_t extra_bits = 0);
 

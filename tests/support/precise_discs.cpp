@@ -16,7 +16,7 @@ bool is_less(const Real& a, const Real& b) { return (a - b).sign() < 0; }
 
 }  // namespace
 
-PreciseDiscs::PreciseDiscs(const BodySystem& system, mpfr_prec_t bits) : bits_(bits) {
+PreciseDiscs::PreciseDiscs(const System& system, mpfr_prec_t bits) : bits_(bits) {
   const auto vector = [&](const ExactVector& exact) {
     return Vector{Real(bits, exact[0]), Real(bits, exact[1])};
   };

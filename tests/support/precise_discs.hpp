@@ -1,8 +1,8 @@
 // Discs in numbers of many bits, every pair in turn: what the engine for discs is compared with.
-// In: a BodySystem. Out: its collisions, true to far more digits than a double has.
+// In: a System. Out: its collisions, true to far more digits than a double has.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <array>
 #include <cstddef>
@@ -24,10 +24,10 @@ class PreciseDiscs {
   struct Step {
     Real time;
     std::uint32_t first;
-    std::uint32_t second;  ///< as in BodyCollision
+    std::uint32_t second;  ///< as in Collision
   };
 
-  explicit PreciseDiscs(const BodySystem& system, mpfr_prec_t bits = 400);
+  explicit PreciseDiscs(const System& system, mpfr_prec_t bits = 400);
 
   std::optional<Step> step();
   const Flight& flight(std::uint32_t body) const { return bodies_[body].flight; }

@@ -2,7 +2,7 @@
 // In: random numbers. Out: discs that overlap neither each other nor the walls.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -22,9 +22,9 @@ inline std::vector<Wall> box(const Rational& width, const Rational& height) {
 
 /// Many discs on a lattice of squares whose sides are 2.5.
 /// @param ratio  of the largest radius, 1, to the least
-inline BodySystem random_gas(Random& random, std::uint32_t number, double ratio = 1.5) {
+inline System random_gas(Random& random, std::uint32_t number, double ratio = 1.5) {
   const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(number)));
-  BodySystem system{.dimensions = 2};
+  System system{.dimensions = 2};
   for (std::uint32_t i = 0; i < number; ++i) {
     Body body;
     body.size = Rational(random.uniform(1 / ratio, 1));
@@ -42,7 +42,7 @@ inline BodySystem random_gas(Random& random, std::uint32_t number, double ratio 
 namespace detail {
 
 /// @param radius  of a disc that shall have room at the point
-inline bool has_room(const BodySystem& system, const ExactVector& point, const Rational& radius) {
+inline bool has_room(const System& system, const ExactVector& point, const Rational& radius) {
   for (const Body& other : system.bodies) {
     const Rational x = point[0] - other.position[0];
     const Rational y = point[1] - other.position[1];
@@ -76,8 +76,8 @@ inline std::vector<Wall> random_walls(Random& random) {
 
 /// 2 to 8 discs of different sizes and masses, some of them immovable, some at rest; in a box, in a
 /// triangle or in the open, where they fly towards the middle.
-inline BodySystem random_discs(Random& random) {
-  BodySystem system{.dimensions = 2, .bodies = {}, .walls = detail::random_walls(random)};
+inline System random_discs(Random& random) {
+  System system{.dimensions = 2, .bodies = {}, .walls = detail::random_walls(random)};
   const std::int64_t number = random.integer(2, 8);
   const double heaviest = random.integer(0, 3) == 0 ? 1e6 : 10;
   for (int attempt = 0; std::ssize(system.bodies) < number && attempt < 200; ++attempt) {
@@ -101,8 +101,8 @@ inline BodySystem random_discs(Random& random) {
 
 /// Positions, radii and velocities are few tenths, masses few whole numbers: discs graze, touch at
 /// the start, and meet several others at once, as far as numbers that no double holds tell.
-inline BodySystem random_coincidences(Random& random) {
-  BodySystem system{.dimensions = 2, .bodies = {}, .walls = {}};
+inline System random_coincidences(Random& random) {
+  System system{.dimensions = 2, .bodies = {}, .walls = {}};
   const int choice = static_cast<int>(random.integer(0, 2));
   if (choice == 1) system.walls = box(Rational(51, 10), Rational(51, 10));
   if (choice == 2) system.walls = {{"slope", {0, 0}, {1, 2}}, {"bottom", {0, 0}, {0, 1}}};

@@ -2,7 +2,7 @@
 // In: random numbers. Out: blocks that do not overlap, of any width, wherever the wall is.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cmath>
 

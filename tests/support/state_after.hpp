@@ -2,12 +2,12 @@
 // In: a log and the index of a collision. Out: the state just after it, whose count is the index.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 namespace piblocks {
 
-inline BlockState state_after(const CollisionLog& log, const Integer& index) {
-  const Collision collision = log.blocks_collision(index);
+inline PairState state_after(const PairLog& log, const Integer& index) {
+  const PairCollision collision = log.blocks_collision(index);
   return {index, collision.blue, collision.red};
 }
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/restitution.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -151,7 +151,7 @@ class Counter {
 std::string pi_count(const LayoutContext& context) {
   if (context.pair() == nullptr) return {};
   const Scene& scene = context.scene;
-  const CollisionLog& log = context.two_blocks();
+  const PairLog& log = context.two_blocks();
   const int base = scene.show.base;
   const bool is_asked_for = scene.show.has(Overlay::digits);
   if (!is_asked_for && scene.view.theme == Theme::article) return {};
@@ -185,7 +185,7 @@ Integer longest_count(const Scene& scene, const Log& log) {
   const bool is_pair = log.pair() != nullptr;
   if (is_pair && log.first_index() > 0) return log.last();
   // A still may show an instant that no film comes to.
-  if (!has_span(scene, log)) return is_pair ? log.last() : to_integer(kMaxBodyCollisions);
+  if (!has_span(scene, log)) return is_pair ? log.last() : to_integer(kMaxSteppedCollisions);
   const Span span = span_of(scene, log);
   Integer last = is_pair ? log.last() : log.count_at(span.to);
   const Integer first = log.count_at(span.from);

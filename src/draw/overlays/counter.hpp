@@ -2,8 +2,8 @@
 // In: a scene and its log. Out: texts, and a drawable.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <string>
 #include <string_view>

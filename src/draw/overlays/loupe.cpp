@@ -40,7 +40,7 @@ std::optional<Loupe> loupe_of(const Scene& scene) {
 /// The gap between wall and red when it is about least; infinite if that cannot be told.
 /// @param within  the times of interest; if empty, all
 double least_gap(const LayoutContext& context, const std::optional<Span>& within = {}) {
-  const CollisionLog& log = context.two_blocks();
+  const PairLog& log = context.two_blocks();
   const auto is_within = [&](const Rational& time) {
     return !within || (time >= within->from && time <= within->to);
   };

@@ -158,7 +158,7 @@ bool has_names(const LayoutContext& context) { return context.pair() != nullptr;
 
 /// The energy of each body that has a name, and the sum of all. Elastic collisions keep the sum.
 ReadOut energy_read_out(const LayoutContext& context, int digits) {
-  const BodySystem& system = context.scene.system;
+  const System& system = context.scene.system;
   const Rational exact_sum = twice_energy(system) / 2;
   if (!has_names(context)) {
     std::string text = fmt::format("Energy {}", short_text(exact_sum));
@@ -176,7 +176,7 @@ ReadOut energy_read_out(const LayoutContext& context, int digits) {
   const auto fastest = [&](std::size_t i) {
     return root_of(2 * exact_sum / *system.bodies[i].mass);
   };
-  const auto energy = [sum](const BodyMotion& body, const mpf_class& most) {
+  const auto energy = [sum](const Motion& body, const mpf_class& most) {
     const double share = most > 0 ? mpf_class(body.velocity[0] / most).get_d() : 0;
     return sum * std::min(1.0, share * share);
   };
@@ -216,7 +216,7 @@ class Momenta {
   std::string widest() const { return text({-most_, -most_}, {-most_, -most_}); }
 
   std::string operator()(const FrameState& shown) const {
-    const std::vector<BodyMotion>& bodies = shown.state.bodies;
+    const std::vector<Motion>& bodies = shown.state.bodies;
     std::vector<double> each;
     for (const std::size_t i : named_) {
       each.push_back(mpf_class(factors_[i] * bodies[i].velocity[0]).get_d());
@@ -230,7 +230,7 @@ class Momenta {
   }
 
  private:
-  static Rational heaviest(const BodySystem& system) {
+  static Rational heaviest(const System& system) {
     Rational most = 0;
     for (const Body& body : system.bodies) most = std::max(most, body.mass.value_or(0));
     return most;
@@ -272,7 +272,7 @@ class Momenta {
                        scale_.text(sum[1]));
   }
 
-  BodySystem system_;
+  System system_;
   Rational most_squared_;
   Scale scale_;
   double most_;

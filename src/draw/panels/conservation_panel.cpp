@@ -31,7 +31,7 @@ constexpr double kLeastUnit = 0.1;
 
 /// Momenta in a unit in which the largest ones are about 1.
 struct Momenta {
-  explicit Momenta(const BodySystem& system) {
+  explicit Momenta(const System& system) {
     const Rational energy = twice_energy(system);
     factors.resize(system.bodies.size());
     if (energy == 0) return;
@@ -129,7 +129,7 @@ class ConservationPanel {
   /// From the last block to the first, walls, and the sum.
   void make_rows(const DrawingContext& context) {
     const Palette& palette = context.palette;
-    const BodySystem& system = context.scene.system;
+    const System& system = context.scene.system;
     const bool is_pair = context.pair() != nullptr;
     for (std::size_t i = system.bodies.size(); i-- > 0;) {
       if (!system.bodies[i].mass) continue;
@@ -156,7 +156,7 @@ class ConservationPanel {
 
   /// The least and the greatest momentum of a row. Blocks that walls push to the right give them
   /// what is less than the sum.
-  void find_range(const BodySystem& system) {
+  void find_range(const System& system) {
     const bool is_shared = !rows_.empty() && rows_.front().bodies.size() > 1;
     const double most_of_row = is_shared ? momenta_.most_of_all : momenta_.most_of_one;
     const LineWalls walls = line_walls(system);
@@ -262,7 +262,7 @@ class ConservationPanel {
   }
 
   /// Parts of the bar from the last block to the first, which has what is left.
-  void add_energy(const std::vector<BodyMotion>& bodies, std::vector<DrawItem>& items) const {
+  void add_energy(const std::vector<Motion>& bodies, std::vector<DrawItem>& items) const {
     const Rect bar = energy_bar();
     const double em = diagram_.text_px();
     const std::size_t count = bodies.size();

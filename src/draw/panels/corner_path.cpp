@@ -36,7 +36,7 @@ std::vector<Gaps> inside_of(const GapWindow& window, const std::vector<Gaps>& co
 
 }  // namespace
 
-CornerPath::CornerPath(const CollisionLog& log, const Span& span, int most_corners) {
+CornerPath::CornerPath(const PairLog& log, const Span& span, int most_corners) {
   const Integer before = log.blocks_at(span.from).count;
   const Integer last = log.blocks_at(span.to).count;
   const std::optional<Rational> turn = turn_of(log.blocks());

@@ -3,7 +3,7 @@
 // and lines and filled areas of a part of the plane.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <array>
 #include <optional>
@@ -34,7 +34,7 @@ class CornerPath {
   /// @param most_corners  of those on the way in, and on the way out; a picture so many pixels wide
   ///                      shows no more, whatever its magnification
   /// @throws SimulationError as gaps_at().
-  CornerPath(const CollisionLog& log, const Span& span, int most_corners);
+  CornerPath(const PairLog& log, const Span& span, int most_corners);
 
   /// Red's greatest and least gap.
   double greatest_y2() const noexcept { return greatest_y2_; }

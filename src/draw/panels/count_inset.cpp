@@ -59,7 +59,7 @@ void CountInset::add_frame(const Diagram& diagram, const Point& from,
   }
 }
 
-void CountInset::add_steps(const Diagram& diagram, const CollisionLog& log,
+void CountInset::add_steps(const Diagram& diagram, const PairLog& log,
                            std::vector<DrawItem>& items) const {
   const Palette& palette = diagram.palette();
   const int columns = std::max(1, static_cast<int>(frame_.width));

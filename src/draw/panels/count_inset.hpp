@@ -2,7 +2,7 @@
 // In: the enlarged part of the curve, the frame. Out: items to draw, and the place of the present.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <vector>
 
@@ -31,8 +31,7 @@ class CountInset {
   /// The frame, and thin lines to the place that it enlarges.
   void add_frame(const Diagram& diagram, const Point& from, std::vector<DrawItem>& items) const;
   /// The steps, each in the colour of the hit that makes it.
-  void add_steps(const Diagram& diagram, const CollisionLog& log,
-                 std::vector<DrawItem>& items) const;
+  void add_steps(const Diagram& diagram, const PairLog& log, std::vector<DrawItem>& items) const;
 
  private:
   EnlargedTurn part_;

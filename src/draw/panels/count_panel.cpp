@@ -1,4 +1,4 @@
-#include <piblocks/restitution.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>

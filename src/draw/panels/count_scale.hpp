@@ -2,7 +2,7 @@
 // In: a log, a span of time, a base. Out: the counts at both ends, and round ones between them.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <string>

@@ -37,8 +37,8 @@ std::vector<Point> Circle::arc(double from, double to) const {
 bool shows_a_turn(const DrawingContext& context) {
   if (context.pair() == nullptr) return false;
   const Span span = span_of(context.scene, context.log);
-  const BlockState first = context.two_blocks().blocks_at(span.from);
-  const BlockState last = context.two_blocks().blocks_at(span.to);
+  const PairState first = context.two_blocks().blocks_at(span.from);
+  const PairState last = context.two_blocks().blocks_at(span.to);
   return first.red.velocity < 0 && last.red.velocity > 0 && last.count - first.count >= 3;
 }
 

@@ -18,7 +18,7 @@ class PositionsPanel {
         axis_(context, diagram_, 0),
         low_(to_double(context.scene.view.x.low)),
         high_(to_double(context.scene.view.x.high)) {
-    const BodySystem& system = context.scene.system;
+    const System& system = context.scene.system;
     const Span& span = axis_.span();
     const double corners = kCornersPerColumn * std::max(1.0, std::ceil(axis_.plot().width));
     const std::vector<std::vector<PathPoint>> paths =

@@ -41,7 +41,7 @@ Meeting first_meeting(const Log& log, const Span& span) {
   const std::size_t bodies = log.system().bodies.size();
   const Integer last = log.count_at(span.to);
   for (Integer k = log.first_since(span.from); k <= last; ++k) {
-    const BodyCollision c = log.collision(k);
+    const Collision c = log.collision(k);
     if (c.second >= bodies) continue;
     Meeting meeting{c.first, c.second, {c.time.hi, {}, {}}};
     auto& [touch, apart, speed] = meeting.before;
@@ -61,7 +61,7 @@ class SeparationPanel {
       : meeting_(first_meeting(context.log, span_of(context.scene, context.log))),
         diagram_(context, place, titles(context)),
         axis_(context, diagram_, 0) {
-    const BodySystem& system = context.scene.system;
+    const System& system = context.scene.system;
     const double reach =
         to_double(system.bodies[meeting_.first].size + system.bodies[meeting_.second].size);
     contact_ = reach * reach;
@@ -94,7 +94,7 @@ class SeparationPanel {
             set.text("Squared distance: touch at (r₁ + r₂)²"), set.text("Squared distance")};
   }
 
-  double square_of(const std::vector<BodyMotion>& bodies) const {
+  double square_of(const std::vector<Motion>& bodies) const {
     const Point apart = from_to(bodies[meeting_.first].position, bodies[meeting_.second].position);
     return dot(apart, apart);
   }

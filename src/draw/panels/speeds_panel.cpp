@@ -27,7 +27,7 @@ constexpr double kBetweenTicks_em = 4;
 constexpr double kCurveHeight = 0.62;
 constexpr int kCurvePoints = 160;
 
-std::vector<double> masses_of(const BodySystem& system) {
+std::vector<double> masses_of(const System& system) {
   std::vector<double> masses;
   for (const Body& body : system.bodies) {
     if (body.mass) masses.push_back(to_double(*body.mass));
@@ -40,7 +40,7 @@ std::vector<double> masses_of(const BodySystem& system) {
 /// Lifshitz, Statistical Physics, section 29). kT is the mean energy, or twice this on a line.
 class Maxwell {
  public:
-  Maxwell(const BodySystem& system, double energy)
+  Maxwell(const System& system, double energy)
       : is_plane_(system.dimensions == 2),
         masses_(masses_of(system)),
         temperature_(energy / double(masses_.size()) * (is_plane_ ? 1 : 2)) {}
@@ -69,7 +69,7 @@ class Maxwell {
   double temperature_;  ///< times Boltzmann's constant
 };
 
-double energy_of(const BodySystem& system) {
+double energy_of(const System& system) {
   Rational twice = 0;
   for (const Body& body : system.bodies) {
     const auto& [x, y] = body.velocity;
@@ -78,7 +78,7 @@ double energy_of(const BodySystem& system) {
   return to_double(twice) / 2;
 }
 
-std::size_t movable(const BodySystem& system) {
+std::size_t movable(const System& system) {
   return std::size_t(
       std::ranges::count_if(system.bodies, [](const Body& body) { return body.mass.has_value(); }));
 }
@@ -125,7 +125,7 @@ class SpeedsPanel {
 
  private:
   static std::vector<Formula> titles(const DrawingContext& context) {
-    const BodySystem& system = context.scene.system;
+    const System& system = context.scene.system;
     if (movable(system) < kLeastBodies || energy_of(system) <= 0) {
       throw UsageError(fmt::format(
           "show.panels: 'speeds' needs at least {} bodies of finite mass, and one that moves",
@@ -179,7 +179,7 @@ class SpeedsPanel {
 
   static constexpr std::size_t kCurve = 1000;  ///< after all bars
 
-  BodySystem system_;
+  System system_;
   Diagram diagram_;
   Maxwell maxwell_;
   Rect plot_;

@@ -15,22 +15,22 @@ struct Column {
   Integer last;
 };
 
-Gaps gaps_at(const Collision& collision, const GapWedge& wedge) {
+Gaps gaps_at(const PairCollision& collision, const GapWedge& wedge) {
   return wedge.gaps_of(collision.blue, collision.red);
 }
 
-void add_corners(const Column& column, const CollisionLog& log, const GapWedge& wedge,
+void add_corners(const Column& column, const PairLog& log, const GapWedge& wedge,
                  std::vector<TrajectoryPiece>& pieces) {
   if (pieces.empty() || pieces.back().corners.empty()) pieces.push_back({{column.from}, {}});
   std::vector<TimedGaps>& corners = pieces.back().corners;
   for (Integer k = column.first; k <= column.last; k += 1) {
-    const Collision collision = log.blocks_collision(k);
+    const PairCollision collision = log.blocks_collision(k);
     corners.push_back({collision.time.hi, gaps_at(collision, wedge)});
   }
   corners.push_back(column.to);
 }
 
-void add_band(const Column& column, const CollisionLog& log, const GapWedge& wedge,
+void add_band(const Column& column, const PairLog& log, const GapWedge& wedge,
               std::vector<TrajectoryPiece>& pieces) {
   if (pieces.empty() || pieces.back().bands.empty()) pieces.push_back({});
   Band band{column.from, column.to, 0};
@@ -45,14 +45,14 @@ void add_band(const Column& column, const CollisionLog& log, const GapWedge& wed
 
 }  // namespace
 
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const GapWedge& wedge,
+std::vector<TrajectoryPiece> trajectory_of(const PairLog& log, const GapWedge& wedge,
                                            const Span& span, int columns) {
   std::vector<TrajectoryPiece> pieces;
-  BlockState state = log.blocks_at(span.from);
+  PairState state = log.blocks_at(span.from);
   TimedGaps from{to_double(span.from), wedge.gaps_of(state)};
   for (int i = 1; i <= columns; ++i) {
     const Rational time = span.from + (span.to - span.from) * i / columns;
-    const BlockState next = log.blocks_at(time);
+    const PairState next = log.blocks_at(time);
     const TimedGaps to{to_double(time), wedge.gaps_of(next)};
     const bool is_dense = next.count - state.count > kMostCorners;
     const auto add = is_dense ? add_band : add_corners;

@@ -2,8 +2,8 @@
 // In: a system and its log. Out: gaps of states, and lines to draw for any number of collisions.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,10 @@ struct GapWedge {
         tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 
   /// The gaps of these positions, with the rounding of positions: not as exact as gaps_at().
-  Gaps gaps_of(const Motion& blue, const Motion& red) const {
+  Gaps gaps_of(const BlockMotion& blue, const BlockMotion& red) const {
     return {blue.position - blue_offset, red.position - red_offset};
   }
-  Gaps gaps_of(const BlockState& state) const { return gaps_of(state.blue, state.red); }
+  Gaps gaps_of(const PairState& state) const { return gaps_of(state.blue, state.red); }
 
   /// So many times the wedge angle, which alone may be below the range of a double.
   double angle(const Magnitude& times) const {
@@ -75,7 +75,7 @@ struct TrajectoryPiece {
 
 /// Pieces from one end of the span to the other.
 /// @param columns  >= 1; columns of one pixel show all that a picture can
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const GapWedge& wedge,
+std::vector<TrajectoryPiece> trajectory_of(const PairLog& log, const GapWedge& wedge,
                                            const Span& span, int columns);
 
 /// The greatest of red's gaps at corners and at ends of bands; at least 0.

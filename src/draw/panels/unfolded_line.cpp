@@ -61,8 +61,7 @@ Rational StraightLine::time_at(double position) const {
   return turn_ + Rational(position) / Rational(velocity_);
 }
 
-UnfoldedMap::UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rect& area,
-                         double margin_px)
+UnfoldedMap::UnfoldedMap(const Scene& scene, const PairLog& log, const Rect& area, double margin_px)
     : line_(log.blocks()),
       area_(area),
       margin_px_(margin_px),
@@ -76,12 +75,12 @@ UnfoldedMap::UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rect
 }
 
 /// Of a collision; exact only where its rounded time would show in the picture.
-Rational UnfoldedMap::time_of(const CollisionLog& log, const Collision& collision) const {
+Rational UnfoldedMap::time_of(const PairLog& log, const PairCollision& collision) const {
   return is_exact_ ? log.time_after(collision.index) : to_rational(collision.time);
 }
 
 /// The corner and all of the line that is shown are in the area.
-void UnfoldedMap::place_corner(const CollisionLog& log) {
+void UnfoldedMap::place_corner(const PairLog& log) {
   double from = line_.at(span_.from);
   double to = line_.at(span_.to);
   if (line_.moves() && !line_.meets_corner()) {
@@ -126,8 +125,8 @@ std::vector<Point> UnfoldedMap::sector(const Point& a, const Point& b) const {
   return outline;
 }
 
-Mirror UnfoldedMap::mirror_of(const CollisionLog& log, const Integer& index) const {
-  const Collision collision = log.blocks_collision(index);
+Mirror UnfoldedMap::mirror_of(const PairLog& log, const Integer& index) const {
+  const PairCollision collision = log.blocks_collision(index);
   const Rational time = time_of(log, collision);
   const double x = x_at(time);
   return {.index = index,
@@ -144,7 +143,7 @@ double UnfoldedMap::reach_px(double least_apart_px) const {
   return std::min(area_.width * std::max(1.0, level_px_ / least_apart_px), farthest);
 }
 
-std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_apart_px) const {
+std::vector<Mirror> UnfoldedMap::mirrors(const PairLog& log, double least_apart_px) const {
   if (!line_.moves() || line_.meets_corner()) return evenly_spaced_mirrors();
   const double reach = std::copysign(reach_px(least_apart_px), line_.velocity());
   if (!(std::abs(reach) > 0)) return {};

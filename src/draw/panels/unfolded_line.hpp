@@ -2,8 +2,8 @@
 // In: a scene, its log, a rectangle. Out: where in pixels the line and its mirrors are.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <optional>
 #include <vector>
@@ -61,8 +61,8 @@ struct Mirror {
 class UnfoldedMap {
  public:
   /// @param margin_px  left and right of what is shown
-  /// @throws Error as CollisionLog::time_after(), where collisions are that near to each other.
-  UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rect& area, double margin_px);
+  /// @throws Error as PairLog::time_after(), where collisions are that near to each other.
+  UnfoldedMap(const Scene& scene, const PairLog& log, const Rect& area, double margin_px);
 
   const StraightLine& line() const noexcept { return line_; }
   const Rect& area() const noexcept { return area_; }
@@ -86,13 +86,13 @@ class UnfoldedMap {
 
   /// The mirrors in the order of time. If they cannot all be told apart, only mirrors that are at
   /// least this far apart, on the line or at the area's sides.
-  std::vector<Mirror> mirrors(const CollisionLog& log, double least_apart_px) const;
+  std::vector<Mirror> mirrors(const PairLog& log, double least_apart_px) const;
 
  private:
-  void place_corner(const CollisionLog& log);
+  void place_corner(const PairLog& log);
   std::vector<Mirror> evenly_spaced_mirrors() const;
-  Rational time_of(const CollisionLog& log, const Collision& collision) const;
-  Mirror mirror_of(const CollisionLog& log, const Integer& index) const;
+  Rational time_of(const PairLog& log, const PairCollision& collision) const;
+  Mirror mirror_of(const PairLog& log, const Integer& index) const;
   double reach_px(double least_apart_px) const;
 
   StraightLine line_;

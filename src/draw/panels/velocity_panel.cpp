@@ -67,7 +67,7 @@ class VelocityPanel {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const double share = is_ellipse_first_ ? morphed_share(shown.video_s) : 1;
-    const BlockState state = blocks_state(shown.state, blocks_);
+    const PairState state = blocks_state(shown.state, blocks_);
     if (share == 1) {
       add(circle_, 1, state, items);
     } else if (share == 0) {
@@ -116,7 +116,7 @@ class VelocityPanel {
             Stroke{color, diagram_.sizes().data_line}};
   }
 
-  void add(const FigureItems& parts, double share, const BlockState& state,
+  void add(const FigureItems& parts, double share, const PairState& state,
            std::vector<DrawItem>& items) const {
     items.insert(items.end(), parts.static_items.begin(), parts.static_items.end());
     const VelocityMap map = figure_.map(share);

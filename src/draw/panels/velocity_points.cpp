@@ -9,7 +9,7 @@
 
 namespace piblocks {
 
-VelocityPoints::VelocityPoints(const Scene& scene, const CollisionLog& log)
+VelocityPoints::VelocityPoints(const Scene& scene, const PairLog& log)
     : wedge_angle_(GapWedge(log.blocks()).theta), last_(log.last()) {
   const TwoBlocks& system = log.blocks();
   const Rational energy = twice_energy(log.system());
@@ -21,7 +21,7 @@ VelocityPoints::VelocityPoints(const Scene& scene, const CollisionLog& log)
   if (log.first_index() < 1 && has_span(scene, log)) {
     const Rational from = span_of(scene, log).from;
     if (from < 0) {
-      const BlockState state = log.blocks_at(from);
+      const PairState state = log.blocks_at(from);
       before_ = std::min<Integer>(state.count, 0);
       start = point_of(state.blue.velocity, state.red.velocity);
     }

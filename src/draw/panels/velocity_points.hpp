@@ -2,8 +2,8 @@
 // In: a scene and its log. Out: points, angles and kinds of collisions.
 #pragma once
 
-#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <vector>
 
@@ -17,7 +17,7 @@ namespace piblocks {
 /// the blocks in the direction of the wedge angle. Angles are counter-clockwise, from the right.
 class VelocityPoints {
  public:
-  VelocityPoints(const Scene& scene, const CollisionLog& log);
+  VelocityPoints(const Scene& scene, const PairLog& log);
 
   /// If neither block moves, all points are 0.
   bool moves() const noexcept { return moves_; }

@@ -301,7 +301,7 @@ std::vector<std::size_t> labelled_above(const LayoutContext& context, const Layo
   return found;
 }
 
-std::vector<std::size_t> from_left_to_right(const BodySystem& line) {
+std::vector<std::size_t> from_left_to_right(const System& line) {
   std::vector<std::size_t> order(line.bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return line.bodies[i].position[0]; });

@@ -35,10 +35,10 @@ struct LineWalls {
   std::optional<Rational> right;
 };
 /// The blocks of a line in their order, which never changes.
-std::vector<std::size_t> from_left_to_right(const BodySystem& line);
-LineWalls line_walls(const BodySystem& system);
+std::vector<std::size_t> from_left_to_right(const System& line);
+LineWalls line_walls(const System& system);
 /// Those of them whose face is in the view.
-LineWalls seen_walls(const BodySystem& system, const View& view);
+LineWalls seen_walls(const System& system, const View& view);
 
 /// The bodies, and what hides those that leave a row.
 Drawable bodies(const DrawingContext& context);

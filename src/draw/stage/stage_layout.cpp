@@ -22,7 +22,7 @@ constexpr std::size_t kMostDrawn = 50'000;
 
 /// What is seen of the axis, and where.
 struct Axis {
-  Axis(const BodySystem& system, const View& view, const Rect& area) : range(view.x) {
+  Axis(const System& system, const View& view, const Rect& area) : range(view.x) {
     const Sizes sizes(view);
     const LineWalls all = line_walls(system);
     const LineWalls seen = seen_walls(system, view);
@@ -59,7 +59,7 @@ struct Axis {
 };
 
 /// The heights of blocks, in those of the lightest one.
-std::vector<double> height_ratios(const BodySystem& system, const Rational& least_mass) {
+std::vector<double> height_ratios(const System& system, const Rational& least_mass) {
   std::vector<double> ratios;
   ratios.reserve(system.bodies.size());
   for (const Body& body : system.bodies) {
@@ -73,7 +73,7 @@ std::vector<double> height_ratios(const BodySystem& system, const Rational& leas
 }
 
 /// The lightest block is a square, and others are higher by their mass.
-void set_blocks(const BodySystem& system, Layout& layout) {
+void set_blocks(const System& system, Layout& layout) {
   const Body* lightest = nullptr;
   for (const Body& body : system.bodies) {
     if (body.mass && (lightest == nullptr || *body.mass < *lightest->mass)) lightest = &body;
@@ -145,7 +145,7 @@ void check_plane(const View& view, double scale) {
 Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
-  const BodySystem& system = context.scene.system;
+  const System& system = context.scene.system;
   Layout layout;
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
   layout.window = {std::ceil(area.x), std::ceil(area.y), std::floor(area.width - 1),
@@ -185,7 +185,7 @@ void check_number(const LayoutContext& context) {
 
 }  // namespace
 
-Rational twice_energy(const BodySystem& system) {
+Rational twice_energy(const System& system) {
   Rational sum = 0;
   for (const Body& body : system.bodies) {
     const auto& [x, y] = body.velocity;
@@ -207,7 +207,7 @@ void check_resolution(const View& view, double scale) {
 
 double reach_px(const LayoutContext& context) {
   const Scene& scene = context.scene;
-  const CollisionLog* const log = context.pair();
+  const PairLog* const log = context.pair();
   if (log == nullptr || log->blocks().side < 0) return HUGE_VAL;
   if (!has_span(scene, *log)) return scene.view.width_px;
   const Span span = span_of(scene, *log);

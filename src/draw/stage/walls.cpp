@@ -121,7 +121,7 @@ std::vector<DrawItem> walls_of_line(const DrawingContext& context) {
 
 }  // namespace
 
-LineWalls line_walls(const BodySystem& system) {
+LineWalls line_walls(const System& system) {
   LineWalls walls;
   for (const Wall& wall : system.walls) {
     const Rational& face = wall.point[0];
@@ -131,7 +131,7 @@ LineWalls line_walls(const BodySystem& system) {
   return walls;
 }
 
-LineWalls seen_walls(const BodySystem& system, const View& view) {
+LineWalls seen_walls(const System& system, const View& view) {
   LineWalls walls = line_walls(system);
   if (walls.left && !(view.x.low <= *walls.left && *walls.left < view.x.high)) walls.left.reset();
   if (walls.right && !(view.x.low < *walls.right && *walls.right <= view.x.high)) {

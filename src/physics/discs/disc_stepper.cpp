@@ -41,7 +41,7 @@ struct Rival {
 /// Phys. 94, 1991.)
 class Stepper final : public DiscStepper {
  public:
-  Stepper(const BodySystem& system, Search search)
+  Stepper(const System& system, Search search)
       : system_(disc_system_of(system)),
         discs_(system_.discs),
         number_(static_cast<std::uint32_t>(discs_.size())),
@@ -53,7 +53,7 @@ class Stepper final : public DiscStepper {
     plan_all();
   }
 
-  std::optional<BodyStep> step() override;
+  std::optional<SteppedCollision> step() override;
   Certainty certainty() const override { return {until_ * system_.units.time}; }
   Bound bound_of(std::uint32_t body) const override {
     const Bound& bound = system_.bounds[body];
@@ -85,12 +85,12 @@ class Stepper final : public DiscStepper {
   void enqueue(std::uint32_t disc);
   void cross(std::uint32_t disc);
 
-  BodyStep meet(std::uint32_t disc, std::uint32_t partner, double time);
+  SteppedCollision meet(std::uint32_t disc, std::uint32_t partner, double time);
   void collide_discs(std::uint32_t first, std::uint32_t second, double time);
   void reflect_disc(std::uint32_t disc, std::uint32_t wall, double time);
   void count_meeting(std::uint32_t disc, std::uint32_t partner, double time);
   void renew_cells(double time);
-  BodyMotion motion_of(std::uint32_t disc) const;
+  Motion motion_of(std::uint32_t disc) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
   double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
@@ -239,7 +239,7 @@ void Stepper::cross(std::uint32_t disc) {
 
 // What happens.
 
-std::optional<BodyStep> Stepper::step() {
+std::optional<SteppedCollision> Stepper::step() {
   if (number_ == 0) return std::nullopt;
   while (true) {
     const std::uint32_t disc = queue_.first();
@@ -259,8 +259,8 @@ std::optional<BodyStep> Stepper::step() {
   }
 }
 
-BodyStep Stepper::meet(std::uint32_t disc, std::uint32_t partner, double time) {
-  BodyStep step;
+SteppedCollision Stepper::meet(std::uint32_t disc, std::uint32_t partner, double time) {
+  SteppedCollision step;
   step.time = {time * system_.units.time, 0};
   if (is_disc(partner)) {
     std::tie(step.first, step.second) = std::minmax(disc, partner);
@@ -324,12 +324,12 @@ void Stepper::renew_cells(double time) {
   plan_all();
 }
 
-BodyMotion Stepper::motion_of(std::uint32_t disc) const {
+Motion Stepper::motion_of(std::uint32_t disc) const {
   constexpr double kMost = 0x1p450;  // squares of the engine's numbers remain finite
   const Disc& moved = discs_[disc];
   const Units& units = system_.units;
-  const BodyMotion motion = {{moved.position.x * units.length, moved.position.y * units.length},
-                             {moved.velocity.x * units.speed, moved.velocity.y * units.speed}};
+  const Motion motion = {{moved.position.x * units.length, moved.position.y * units.length},
+                         {moved.velocity.x * units.speed, moved.velocity.y * units.speed}};
   const auto is_in_range = [](double own, double outside) {
     return std::abs(own) < kMost && std::isfinite(outside);
   };
@@ -409,11 +409,11 @@ void Stepper::raise_top_speed(std::uint32_t disc) {
 
 namespace piblocks {
 
-std::unique_ptr<DiscStepper> make_disc_stepper(const BodySystem& system, discs::Search search) {
+std::unique_ptr<DiscStepper> make_disc_stepper(const System& system, discs::Search search) {
   return std::make_unique<discs::Stepper>(system, search);
 }
 
-std::unique_ptr<BodyStepper> make_disc_stepper(const BodySystem& system) {
+std::unique_ptr<Stepper> make_disc_stepper(const System& system) {
   return make_disc_stepper(system, discs::Search::cells);
 }
 

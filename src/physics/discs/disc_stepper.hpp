@@ -1,17 +1,17 @@
 // The engine for discs, with what its tests ask for.
-// In: a BodySystem without problems. Out: see body_stepper.hpp.
+// In: a System without problems. Out: see body_stepper.hpp.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
-#include "physics/body_stepper.hpp"
 #include "physics/discs/cells.hpp"
 #include "physics/discs/disc_system.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks {
 
-class DiscStepper : public BodyStepper {
+class DiscStepper : public Stepper {
  public:
   /// While all is certain: how far the true flight of a body since its last collision may be from
   /// the computed one, in the units of the system.
@@ -19,6 +19,6 @@ class DiscStepper : public BodyStepper {
 };
 
 /// Both searches give the same numbers.
-std::unique_ptr<DiscStepper> make_disc_stepper(const BodySystem& system, discs::Search search);
+std::unique_ptr<DiscStepper> make_disc_stepper(const System& system, discs::Search search);
 
 }  // namespace piblocks

@@ -52,7 +52,7 @@ struct Exponents {
   long mass = 0;
 };
 
-Exponents exponents_of(const BodySystem& system) {
+Exponents exponents_of(const System& system) {
   std::optional<long> length;
   std::optional<long> speed;
   std::optional<long> mass;
@@ -120,7 +120,7 @@ WallLine wall_line(const Wall& wall, const Exponents& exponents) {
 
 }  // namespace
 
-DiscSystem disc_system_of(const BodySystem& system) {
+DiscSystem disc_system_of(const System& system) {
   const Exponents exponents = exponents_of(system);
   const long time = exponents.length - exponents.speed;
   for (const long exponent : {exponents.length, exponents.speed, time}) {

@@ -1,8 +1,8 @@
 // The discs and walls of a system in units of the engine.
-// In: a BodySystem, exact. Out: doubles, and how far each may be from what was given.
+// In: a System, exact. Out: doubles, and how far each may be from what was given.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <vector>
 
@@ -37,6 +37,6 @@ struct DiscSystem {
 
 /// @param system  has no problems.
 /// @throws SimulationError if doubles cannot hold all of its lengths, speeds or masses together.
-DiscSystem disc_system_of(const BodySystem& system);
+DiscSystem disc_system_of(const System& system);
 
 }  // namespace piblocks::discs

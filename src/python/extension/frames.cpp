@@ -11,7 +11,7 @@
 
 #include "draw/canvas.hpp"
 #include "media/pixels/rgb24.hpp"
-#include "physics/blocks.hpp"
+#include "physics/problems.hpp"
 #include "python/extension/canvas_pool.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"

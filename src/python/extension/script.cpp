@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 #include <pybind11/stl.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <piblocks/exact.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -7,10 +7,10 @@ set datafile missing NaN
 set encoding utf8
 
 # Colours of Okabe and Ito, told apart by the colour-blind; shapes tell methods apart without any.
-array name[10] = ["piblocks::CollisionLog", "closed form; two-sided", "closed form; one-sided", \
+array name[10] = ["piblocks::PairLog", "closed form; two-sided", "closed form; one-sided", \
   "closed form; oracle", "velocity-only loop", "gap loop", "article's loop", \
   "piblocks::EventSimulator", "fixed-step Euler", "CVODE Adams"]
-array title_[10] = ["piblocks::CollisionLog", "closed form, two-sided, bare", \
+array title_[10] = ["piblocks::PairLog", "closed form, two-sided, bare", \
   "closed form, one-sided", "closed form, oracle of the tests", "velocity-only loop", "gap loop", \
   "article's loop", "piblocks::EventSimulator", "fixed-step Euler (h)", "CVODE Adams (tolerance)"]
 array colour[10] = ["#D55E00", "#E69F00", "#0072B2", "#000000", "#009E73", "#56B4E9", "#CC79A7", \

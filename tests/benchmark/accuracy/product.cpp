@@ -1,4 +1,4 @@
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <memory>
 #include <span>
@@ -12,15 +12,15 @@ namespace {
 /// The program's log, through the interface that its users have.
 class Product final : public Method {
  public:
-  Product() : Method({"piblocks::CollisionLog", kScalarName<double>, ""}) {}
+  Product() : Method({"piblocks::PairLog", kScalarName<double>, ""}) {}
 
   WholeLog whole_log(const TwoBlocks& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     const auto stream = log->stream(1, log->last());
     LogWriter<double> writer(wanted, deadline);
-    const auto batch = std::make_unique<CollisionBatch>();
-    const auto rows = [&](const CollisionBatch::Column& column) {
+    const auto batch = std::make_unique<PairBatch>();
+    const auto rows = [&](const PairBatch::Column& column) {
       return std::span(column).first(batch->size);
     };
     while (stream->read(*batch)) {
@@ -32,10 +32,10 @@ class Product final : public Method {
 
   std::vector<LoggedEvent> single_events(const TwoBlocks& system,
                                          std::span<const std::int64_t> wanted) const override {
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     std::vector<LoggedEvent> events;
     for (const std::int64_t k : wanted) {
-      const Collision collision = log->blocks_collision(k);
+      const PairCollision collision = log->blocks_collision(k);
       events.push_back({k, collision.time.hi, collision.blue.position, collision.red.position});
     }
     return events;
@@ -43,7 +43,7 @@ class Product final : public Method {
 
   Numbers blue_at(const TwoBlocks& system, const Instants& instants,
                   const Deadline&) const override {
-    const auto log = make_collision_log(system);
+    const auto log = make_pair_log(system);
     std::vector<double> blue;
     blue.reserve(instants.exact.size());
     for (const Rational& time : instants.exact) blue.push_back(log->blocks_at(time).blue.position);

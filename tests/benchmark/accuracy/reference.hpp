@@ -2,7 +2,7 @@
 // In: a number of digits of pi. Out: the article's system, and events and positions of it.
 #pragma once
 
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <vector>
 

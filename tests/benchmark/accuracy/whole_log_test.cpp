@@ -1,6 +1,6 @@
 // Every collision of the program's logs, against the closed form in fifty digits.
 #include <gtest/gtest.h>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -20,7 +20,7 @@ struct Worst {
 double size(const Decimal50& error) { return static_cast<double>(Decimal50(abs(error))); }
 
 /// The row is collision k.
-void compare(const CollisionBatch& batch, std::size_t row, std::int64_t k,
+void compare(const PairBatch& batch, std::size_t row, std::int64_t k,
              const OneSided<Decimal50>& formula, Worst& worst) {
   const auto right = formula.event(k);
   const Decimal50 rounded = batch.time_hi[row];
@@ -35,9 +35,9 @@ class WholeLogOfDigits : public testing::TestWithParam<int> {};
 
 TEST_P(WholeLogOfDigits, HasEveryTimeToFourTimesTenToTheMinusSixteenOfItself) {
   const TwoBlocks system = article_blocks(GetParam());
-  const auto log = make_collision_log(system);
+  const auto log = make_pair_log(system);
   const auto stream = log->stream(1, log->last());
-  const auto batch = std::make_unique<CollisionBatch>();
+  const auto batch = std::make_unique<PairBatch>();
   const OneSided<Decimal50> formula(system);
   Worst worst;
   std::int64_t events = 0;

@@ -23,12 +23,11 @@ constexpr double kParted = 1e-3;
 constexpr mpfr_prec_t kFewBits = 400;
 constexpr mpfr_prec_t kRightBits = 2400;
 
-std::vector<double> disc_positions(const BodySystem& system,
-                                   const std::vector<Rational>& instants) {
+std::vector<double> disc_positions(const System& system, const std::vector<Rational>& instants) {
   const std::unique_ptr<Log> log = make_log(system, instants.back());
   std::vector<double> positions;
   for (const Rational& time : instants) {
-    const BodiesState state = log->state_at(time);
+    const State state = log->state_at(time);
     for (std::uint32_t i = 0; i < kDiscs; ++i) {
       for (const double coordinate : state.bodies[i].position) positions.push_back(coordinate);
     }
@@ -38,7 +37,7 @@ std::vector<double> disc_positions(const BodySystem& system,
 
 /// Walls are balls of a radius r at which they bulge, by about 50/r, as much as rounding does.
 template <typename Number>
-std::vector<Number> simulated_disc_positions(const BodySystem& system,
+std::vector<Number> simulated_disc_positions(const System& system,
                                              const std::vector<double>& instants) {
   using std::sqrt;
   const Number radius = sqrt(Number(50) / std::numeric_limits<Number>::epsilon());
@@ -60,9 +59,7 @@ std::vector<Number> simulated_disc_positions(const BodySystem& system,
 /// All pairs in many bits. They go on for ever.
 class PreciseRun {
  public:
-  PreciseRun(const BodySystem& system, mpfr_prec_t bits) : bits_(bits), discs_(system, bits) {
-    step();
-  }
+  PreciseRun(const System& system, mpfr_prec_t bits) : bits_(bits), discs_(system, bits) { step(); }
 
   /// Of the next collision.
   const Real& next_time() const { return next_; }
@@ -94,9 +91,8 @@ class PreciseRun {
 bool is_after(const Real& a, const Real& b) { return (a - b).sign() > 0; }
 
 /// @param counts  gets the number of collisions before each instant
-std::vector<Real> precise_disc_positions(const BodySystem& system,
-                                         const std::vector<double>& instants, mpfr_prec_t bits,
-                                         std::vector<int>* counts = nullptr) {
+std::vector<Real> precise_disc_positions(const System& system, const std::vector<double>& instants,
+                                         mpfr_prec_t bits, std::vector<int>* counts = nullptr) {
   PreciseRun run(system, bits);
   std::vector<Real> positions;
   int collisions = 0;
@@ -131,7 +127,7 @@ Verdict verdict_on(const Answers& answers, const RightAnswers& right) {
 }
 
 /// @throws SimulationError if many bits are not enough.
-RightAnswers right_answers(const BodySystem& system, const std::vector<double>& instants) {
+RightAnswers right_answers(const System& system, const std::vector<double>& instants) {
   RightAnswers right;
   for (const Real& number : precise_disc_positions(system, instants, kRightBits, &right.counts)) {
     right.positions.push_back(to_wide(number));
@@ -147,7 +143,7 @@ RightAnswers right_answers(const BodySystem& system, const std::vector<double>& 
                   right.counts.back(), kRightBits, 2 * kRightBits));
 }
 
-std::vector<Contestant> disc_contestants(const BodySystem& system,
+std::vector<Contestant> disc_contestants(const System& system,
                                          const std::vector<double>& instants) {
   const std::vector<Rational> exact(instants.begin(), instants.end());
   std::vector<Contestant> all = {
@@ -167,14 +163,14 @@ std::vector<Contestant> disc_contestants(const BodySystem& system,
   return all;
 }
 
-double end_of_certainty(const BodySystem& system) {
+double end_of_certainty(const System& system) {
   for (Rational until = 1;; until *= 2) {
     const std::unique_ptr<Log> log = make_log(system, until);
     if (const std::optional<double> end = log->certain_until(until)) return *end;
   }
 }
 
-double time_after_discs(const BodySystem& system, int collisions) {
+double time_after_discs(const System& system, int collisions) {
   PreciseRun run(system, kRightBits);
   for (int k = 1; k < collisions; ++k) run.step();
   const double last = run.next_time().to_double();
@@ -189,7 +185,7 @@ struct DiscColumn {
   std::vector<Verdict> verdicts = {};
 };
 
-DiscColumn disc_column(const BodySystem& system, double end) {
+DiscColumn disc_column(const System& system, double end) {
   const std::vector<double> instants = random_instants(end, kInstants);
   const RightAnswers right = right_answers(system, instants);
   DiscColumn column{right.counts.back(), disc_contestants(system, instants)};
@@ -208,7 +204,7 @@ void print_disc_table() {
       "| Method | Number type | while certain: time | error | 2,000 collisions: time | parted at "
       "|\n"
       "|---|---|---:|---:|---:|---:|\n");
-  const BodySystem system = disc_gas(kDiscs);
+  const System system = disc_gas(kDiscs);
   const DiscColumn certain = disc_column(system, end_of_certainty(system));
   const DiscColumn many = disc_column(system, time_after_discs(system, kMany));
   for (std::size_t row = 0; row < certain.contestants.size(); ++row) {

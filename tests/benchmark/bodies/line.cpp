@@ -15,19 +15,18 @@ namespace piblocks::benchmark {
 namespace {
 
 /// As assets/scenes/three-blocks.toml.
-BodySystem three_blocks() {
-  BodySystem system;
+System three_blocks() {
+  System system;
   system.bodies = {{1, {1}, {1}, 1}, {16, {4}, {0}, Rational(3, 2)}, {100, {8}, {-1}, 2}};
   system.walls = {{"left", {0}, {1}}, {"right", {12}, {-1}}};
   return system;
 }
 
-std::vector<double> line_positions(const BodySystem& system,
-                                   const std::vector<Rational>& instants) {
+std::vector<double> line_positions(const System& system, const std::vector<Rational>& instants) {
   const std::unique_ptr<Log> log = make_log(system, instants.back());
   std::vector<double> positions;
   for (const Rational& time : instants) {
-    for (const BodyMotion& body : log->state_at(time).bodies) {
+    for (const Motion& body : log->state_at(time).bodies) {
       positions.push_back(body.position[0]);
     }
   }
@@ -36,7 +35,7 @@ std::vector<double> line_positions(const BodySystem& system,
 
 /// Walls are immovable blocks, one wide.
 template <typename Number>
-std::vector<Particle<Number, 1>> particles_of(const BodySystem& system) {
+std::vector<Particle<Number, 1>> particles_of(const System& system) {
   std::vector<Particle<Number, 1>> particles;
   const auto add = [&](const Number& mass, const Rational& size, const Rational& position,
                        const Rational& velocity) {
@@ -57,7 +56,7 @@ std::vector<Particle<Number, 1>> particles_of(const BodySystem& system) {
 }
 
 template <typename Number>
-std::vector<Number> simulated_line_positions(const BodySystem& system,
+std::vector<Number> simulated_line_positions(const System& system,
                                              const std::vector<double>& instants) {
   EventSimulator<Number, 1> simulator(particles_of<Number>(system));
   std::vector<Number> positions;
@@ -81,7 +80,7 @@ double worst_error(const Answers& answers, const Answers& right) {
 }
 
 /// A time between this collision and the next.
-double time_after_blocks(const BodySystem& system, int collisions) {
+double time_after_blocks(const System& system, int collisions) {
   LineLoop<Wide> loop(system);
   for (int k = 1; k < collisions; ++k) loop.step();
   const Wide last = loop.next_time();
@@ -91,7 +90,7 @@ double time_after_blocks(const BodySystem& system, int collisions) {
 
 /// Rational numbers grow too long for thousands of collisions. While they do not, they are what 400
 /// bits have to agree with.
-Answers right_line_positions(const BodySystem& system, const std::vector<double>& instants,
+Answers right_line_positions(const System& system, const std::vector<double>& instants,
                              int collisions) {
   Answers right = loop_positions<Wide>(system, instants);
   constexpr int kMostExact = 500;
@@ -109,7 +108,7 @@ Answers right_line_positions(const BodySystem& system, const std::vector<double>
   return exact;
 }
 
-std::vector<Contestant> line_contestants(const BodySystem& system,
+std::vector<Contestant> line_contestants(const System& system,
                                          const std::vector<double>& instants) {
   const std::vector<Rational> exact(instants.begin(), instants.end());
   std::vector<Contestant> all = {contestant("piblocks::Log", "rational, then double",
@@ -132,7 +131,7 @@ struct LineColumn {
   std::vector<double> errors = {};
 };
 
-LineColumn line_column(const BodySystem& system, int collisions) {
+LineColumn line_column(const System& system, int collisions) {
   const std::vector<double> instants =
       random_instants(time_after_blocks(system, collisions), kInstants);
   const Answers right = right_line_positions(system, instants, collisions);
@@ -144,7 +143,7 @@ LineColumn line_column(const BodySystem& system, int collisions) {
   return column;
 }
 
-void print_line_certainty(const BodySystem& system) {
+void print_line_certainty(const System& system) {
   constexpr std::int64_t kEnough = 500'000;
   const std::unique_ptr<Log> log = make_log(system);
   std::int64_t exact = 0;
@@ -163,7 +162,7 @@ void print_line_certainty(const BodySystem& system) {
 }  // namespace
 
 void print_line_table() {
-  const BodySystem system = three_blocks();
+  const System system = three_blocks();
   std::vector<LineColumn> columns;
   std::string head = "| Method | Number type |";
   std::string rule = "|---|---|";

@@ -1,9 +1,9 @@
 // Blocks on a line, from collision to collision, in any number type: the plain program that
 // somebody would write, and in many bits the right answers.
-// In: a BodySystem whose bodies are in their order along the axis. Out: where they are.
+// In: a System whose bodies are in their order along the axis. Out: where they are.
 #pragma once
 
-#include <piblocks/bodies.hpp>
+#include <piblocks/system.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -16,7 +16,7 @@ namespace piblocks::benchmark {
 template <typename Number>
 class LineLoop {
  public:
-  explicit LineLoop(const BodySystem& system) {
+  explicit LineLoop(const System& system) {
     for (const Wall& wall : system.walls) {
       if (wall.normal[0] > 0) add_wall(wall);
     }
@@ -99,7 +99,7 @@ class LineLoop {
 
 /// Of all blocks at each of these times.
 template <typename Number>
-std::vector<Number> loop_positions(const BodySystem& system, const std::vector<double>& instants) {
+std::vector<Number> loop_positions(const System& system, const std::vector<double>& instants) {
   LineLoop<Number> loop(system);
   std::vector<Number> positions;
   for (const double instant : instants) {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -58,9 +58,9 @@ std::vector<Number> inelastic_loop_times(const TwoBlocks& system) {
 }
 
 std::vector<Time> inelastic_log_times(const TwoBlocks& system) {
-  const std::unique_ptr<CollisionLog> log = make_collision_log(system);
-  const std::unique_ptr<CollisionStream> stream = log->stream(1, log->last());
-  const auto batch = std::make_unique<CollisionBatch>();
+  const std::unique_ptr<PairLog> log = make_pair_log(system);
+  const std::unique_ptr<PairStream> stream = log->stream(1, log->last());
+  const auto batch = std::make_unique<PairBatch>();
   std::vector<Time> times;
   while (stream->read(*batch)) {
     for (std::size_t row = 0; row < batch->size; ++row) {
@@ -101,8 +101,7 @@ std::optional<double> worst_time_error(const Answers& times, const Answers& righ
 }
 
 std::vector<Contestant> restitution_contestants(const TwoBlocks& system) {
-  std::vector<Contestant> all = {contestant("piblocks::CollisionLog",
-                                            "MPFR, rounded to two doubles",
+  std::vector<Contestant> all = {contestant("piblocks::PairLog", "MPFR, rounded to two doubles",
                                             [=] { return inelastic_log_times(system); })};
   const auto add = [&]<typename Number>(Number) {
     all.push_back(contestant("gap loop", kNumberName<Number>,

@@ -4,7 +4,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 #include <png.h>
 
 #include <cstdio>
@@ -82,7 +82,7 @@ const std::map<std::string, Write>& writers() {
 /// The frames of one thread, drawn as the program draws them; a Scene is the article's by default.
 void write_frames(const Options& options, std::int64_t begin, std::int64_t end) {
   const Scene scene;
-  const auto log = make_collision_log(scene.system);
+  const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const Composition composition(scene, *log);
   const Write& write = writers().at(options.writer);

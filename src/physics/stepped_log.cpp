@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/stop.hpp"
-#include "physics/blocks.hpp"
-#include "physics/body_logs.hpp"
-#include "physics/body_stepper.hpp"
+#include "physics/block_motion.hpp"
+#include "physics/logs.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks {
 namespace {
@@ -20,8 +20,8 @@ struct StoredStep {
   Time time;
   std::uint32_t first = 0;
   std::uint32_t second = 0;
-  BodyMotion first_after;
-  BodyMotion second_after;
+  Motion first_after;
+  Motion second_after;
 };
 
 /// A binary fraction from `time` on and before `next`, of as few digits as there may be.
@@ -36,7 +36,7 @@ Rational short_time(const Rational& time, const std::optional<Rational>& next) {
 }
 
 /// The fastest body crosses everything in this time, as all is at time 0.
-double crossing_time(const BodySystem& system) {
+double crossing_time(const System& system) {
   double size = 0;
   double speed = 0;
   for (const Body& body : system.bodies) {
@@ -52,10 +52,10 @@ double crossing_time(const BodySystem& system) {
 }
 
 /// Steps are computed when they are first asked for, and stay.
-class StoredBodyLog final : public Log {
+class SteppedLog final : public Log {
  public:
-  StoredBodyLog(const BodySystem& system, std::optional<Rational> horizon, std::stop_token stop,
-                Engine engine)
+  SteppedLog(const System& system, std::optional<Rational> horizon, std::stop_token stop,
+             Engine engine)
       : Log(system),
         stop_(std::move(stop)),
         stepper_(engine == Engine::events ? make_event_stepper(system)
@@ -86,20 +86,20 @@ class StoredBodyLog final : public Log {
   bool never_ends() const override { return never_ends_; }
   std::optional<Rational> horizon() const override { return horizon_; }
 
-  BodyCollision collision(const Integer& index) const override {
+  Collision collision(const Integer& index) const override {
     compute_up_to(index);
     const std::shared_lock lock(mutex_);
     const StoredStep& step = steps_.at(index.get_ui() - 1);
     return {index, step.time, step.first, step.second, step.first_after, step.second_after};
   }
 
-  BodiesState state_at(const Rational& time) const override {
+  State state_at(const Rational& time) const override {
     require_not_negative(time);
     compute_until(time);
     const std::shared_lock lock(mutex_);
     const std::size_t count = steps_until(time);
     const Time now = to_time(time);
-    BodiesState state{Integer(count), start_};
+    State state{Integer(count), start_};
     for (std::size_t body = 0; body < state.bodies.size(); ++body) {
       const auto next = std::ranges::lower_bound(of_body_[body], count);
       state.bodies[body] = motion_at(body, now, next);
@@ -160,15 +160,15 @@ class StoredBodyLog final : public Log {
  private:
   using Numbers = std::vector<std::uint32_t>;
 
-  static const BodyMotion& after(const StoredStep& step, std::size_t body) {
+  static const Motion& after(const StoredStep& step, std::size_t body) {
     return step.first == body ? step.first_after : step.second_after;
   }
   static double flight(const Time& from, const Time& to) {
     return (to.hi - from.hi) + (to.lo - from.lo);
   }
   /// @param next  the body's first step after that time
-  BodyMotion motion_at(std::size_t body, const Time& time, Numbers::const_iterator next) const {
-    BodyMotion motion = start_[body];
+  Motion motion_at(std::size_t body, const Time& time, Numbers::const_iterator next) const {
+    Motion motion = start_[body];
     Time since;
     if (next != of_body_[body].begin()) {
       const StoredStep& last = steps_[*std::prev(next)];
@@ -256,15 +256,15 @@ class StoredBodyLog final : public Log {
   }
 
   void add_step() const {
-    const std::optional<BodyStep> step = stepper_->step();
+    const std::optional<SteppedCollision> step = stepper_->step();
     note_certainty();
     is_complete_ = !step;
     if (is_complete_) return;
-    if (steps_.size() == static_cast<std::size_t>(kMaxBodyCollisions)) {
+    if (steps_.size() == static_cast<std::size_t>(kMaxSteppedCollisions)) {
       throw SimulationError(fmt::format(
           "bodies: more than {} collisions until time {:.6g}; show or count those until an earlier "
           "time, as --to {:.4g}",
-          readable(to_integer(kMaxBodyCollisions)), step->time.hi, step->time.hi * 0.9));
+          readable(to_integer(kMaxSteppedCollisions)), step->time.hi, step->time.hi * 0.9));
     }
     const auto number = static_cast<std::uint32_t>(steps_.size());
     if (step->exact_time) exact_times_.push_back(*step->exact_time);
@@ -312,8 +312,8 @@ class StoredBodyLog final : public Log {
 
   std::stop_token stop_;
   mutable std::shared_mutex mutex_;
-  std::unique_ptr<BodyStepper> stepper_;
-  std::vector<BodyMotion> start_;
+  std::unique_ptr<Stepper> stepper_;
+  std::vector<Motion> start_;
   bool never_ends_;
   std::optional<Rational> horizon_;
   mutable bool is_complete_ = false;
@@ -327,10 +327,9 @@ class StoredBodyLog final : public Log {
 
 }  // namespace
 
-std::unique_ptr<Log> make_stored_body_log(const BodySystem& system,
-                                          const std::optional<Rational>& horizon,
-                                          const std::stop_token& stop, Engine engine) {
-  return std::make_unique<StoredBodyLog>(system, horizon, stop, engine);
+std::unique_ptr<Log> make_stepped_log(const System& system, const std::optional<Rational>& horizon,
+                                      const std::stop_token& stop, Engine engine) {
+  return std::make_unique<SteppedLog>(system, horizon, stop, engine);
 }
 
 }  // namespace piblocks

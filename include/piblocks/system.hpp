@@ -2,7 +2,6 @@
 // In: exact masses, positions, velocities. Out: everything that is wrong with them.
 #pragma once
 
-#include <piblocks/block_system.hpp>
 #include <piblocks/exact.hpp>
 
 #include <array>
@@ -34,7 +33,7 @@ struct Wall {
 };
 
 /// Bodies do not overlap each other nor the walls. Touching is allowed.
-struct BodySystem {
+struct System {
   int dimensions = 1;  ///< 1: blocks on the x axis; 2: discs
   std::vector<Body> bodies = {};
   std::vector<Wall> walls = {};
@@ -46,35 +45,44 @@ struct BodySystem {
 };
 
 /// Whether collisions keep the energy.
-inline bool is_elastic(const BodySystem& system) {
+inline bool is_elastic(const System& system) {
   return system.restitution == 1 && system.wall_restitution == 1;
 }
 
 /// Whether the bodies are blue, red and a wall on their left, which scene files, tables and
 /// messages call so.
-bool has_short_names(const BodySystem& system);
+bool has_short_names(const System& system);
+
+inline constexpr int kMaxDigits = 100'000;
+
+/// The mass ratio at which the collisions count pi to digits - 1 places after the point:
+/// base^(2 (digits - 1)). In base 10 these are its first `digits` digits; in base 2 and 3, where
+/// pi's whole part has two digits, there is one more.
+/// @throws UsageError unless 1 <= digits <= kMaxDigits and kMinBase <= base <= kMaxBase.
+Rational mass_ratio_of(int digits, int base = kUsualBase);
 
 /// The article's system, with red that many times as heavy as blue.
 /// @throws UsageError as mass_ratio_of()
-BodySystem article_system(int digits, int base = kUsualBase);
+System article_system(int digits, int base = kUsualBase);
 
 /// Most bodies of a system. A scene file has room for fewer: kMaxSceneFile_bytes in script.hpp.
 inline constexpr std::size_t kMaxBodies = 100'000;
 inline constexpr std::size_t kMaxWalls = 16;
 
+/// What is wrong with one value of a scene.
+struct Problem {
+  std::string key;     ///< as in a scene file: "red.mass"
+  std::string reason;  ///< with the value: "= -1: must be greater than 0"
+};
+
 /// Everything that is wrong with a system; empty if nothing is. Keys are "body 3.mass", counted
 /// from 1, or "blue.mass" of a body with that name; "wall 1.normal", "body" and "wall". If discs
 /// overlap, it names some; the others do not overlap. It takes about n log n steps for n bodies,
 /// whatever their places and sizes are.
-std::vector<Problem> problems_of(const BodySystem& system);
+std::vector<Problem> problems_of(const System& system);
 
 /// Whether collisions may never end: a body is in a closed box, or can return to two immovable
 /// objects for ever.
-bool may_never_end(const BodySystem& system);
-
-/// The blocks of a system that is nothing but that; nothing for all others.
-std::optional<TwoBlocks> two_blocks_of(const BodySystem& system);
-/// The same as bodies: blue, red, and a wall, with these names.
-BodySystem system_of(const TwoBlocks& blocks);
+bool may_never_end(const System& system);
 
 }  // namespace piblocks

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "physics/blocks.hpp"
+#include "physics/block_motion.hpp"
 #include "physics/exact_motion.hpp"
+#include "physics/logs.hpp"
 
 namespace piblocks {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 struct StoredCollision {
   Time time;
   CollisionKind kind = CollisionKind::blocks;
-  Motion blue;
-  Motion red;
+  BlockMotion blue;
+  BlockMotion red;
 };
 using StoredCollisions = std::vector<StoredCollision>;
 
@@ -43,7 +44,7 @@ Simulator::Body wall_of(const TwoBlocks& system) {
           .position = Vector(to_double(system.wall_face - Rational(1, 2)))};
 }
 
-Motion motion_of(const Simulator::Body& body) { return {body.position[0], body.velocity[0]}; }
+BlockMotion motion_of(const Simulator::Body& body) { return {body.position[0], body.velocity[0]}; }
 
 /// Records collisions, and stops an engine that finds many more than there are.
 class Recorder {
@@ -102,17 +103,17 @@ std::size_t count(const StoredCollisions& collisions, const Time& time, bool or_
 }
 
 /// What a loop recorded, forwards and backwards from time 0.
-class StoredLog final : public CollisionLog {
+class EventLog final : public PairLog {
  public:
   /// @param forward   collisions at times >= 0, in order.
   /// @param backward  collisions of the run with all velocities reversed, in its order and with
   ///                  its times and velocities.
-  StoredLog(const BodySystem& system, StoredCollisions forward, StoredCollisions backward)
-      : CollisionLog(system), forward_(std::move(forward)), backward_(std::move(backward)) {
+  EventLog(const System& system, StoredCollisions forward, StoredCollisions backward)
+      : PairLog(system), forward_(std::move(forward)), backward_(std::move(backward)) {
     set_range(1 - Integer(backward_.size()), forward_.size());
   }
 
-  Collision blocks_collision(const Integer& index) const override {
+  PairCollision blocks_collision(const Integer& index) const override {
     if (index > 0) {
       const StoredCollision& c = forward_[index.get_ui() - 1];
       return {index, c.time, c.kind, c.blue, c.red};
@@ -121,8 +122,10 @@ class StoredLog final : public CollisionLog {
     // reversed run.
     const std::size_t place = Integer(-index).get_ui();
     const StoredCollision& c = backward_[place];
-    const Motion blue = place == 0 ? motion_of(blocks().blue) : reversed(backward_[place - 1].blue);
-    const Motion red = place == 0 ? motion_of(blocks().red) : reversed(backward_[place - 1].red);
+    const BlockMotion blue =
+        place == 0 ? motion_of(blocks().blue) : reversed(backward_[place - 1].blue);
+    const BlockMotion red =
+        place == 0 ? motion_of(blocks().red) : reversed(backward_[place - 1].red);
     return {index,
             negated(c.time),
             c.kind,
@@ -130,9 +133,9 @@ class StoredLog final : public CollisionLog {
             {c.red.position, red.velocity}};
   }
 
-  BlockState blocks_at(const Rational& time) const override {
+  PairState blocks_at(const Rational& time) const override {
     const Time now = to_time(time);
-    BlockState state{0, motion_of(blocks().blue), motion_of(blocks().red)};
+    PairState state{0, motion_of(blocks().blue), motion_of(blocks().red)};
     Time since;
     if (const std::size_t happened = count(forward_, now, true); happened > 0) {
       const StoredCollision& c = forward_[happened - 1];
@@ -144,7 +147,8 @@ class StoredLog final : public CollisionLog {
       state = {-Integer(to_come), reversed(c.blue), reversed(c.red)};
     }
     const double age = (now.hi - since.hi) + (now.lo - since.lo);
-    for (Motion* const block : {&state.blue, &state.red}) block->position += block->velocity * age;
+    for (BlockMotion* const block : {&state.blue, &state.red})
+      block->position += block->velocity * age;
     require_finite(now, state.blue, state.red, "state");
     return state;
   }
@@ -165,7 +169,7 @@ class StoredLog final : public CollisionLog {
 
 }  // namespace
 
-std::unique_ptr<CollisionLog> make_stored_log(const BodySystem& system) {
+std::unique_ptr<PairLog> make_event_log(const System& system) {
   if (!is_elastic(system)) {
     throw UsageError(
         "event loop: its collisions are elastic; for blocks.restitution and wall.restitution use "
@@ -180,13 +184,7 @@ std::unique_ptr<CollisionLog> make_stored_log(const BodySystem& system) {
         "unfolded)",
         readable(count), readable(to_integer(kMaxStoredCollisions))));
   }
-  return std::make_unique<StoredLog>(system, event_loop(blocks), event_loop(reversed(blocks)));
-}
-
-std::vector<std::string> physics_library_versions() {
-  return {
-      fmt::format("Eigen {}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION),
-      fmt::format("GMP {}", gmp_version), fmt::format("MPFR {}", mpfr_get_version())};
+  return std::make_unique<EventLog>(system, event_loop(blocks), event_loop(reversed(blocks)));
 }
 
 }  // namespace piblocks

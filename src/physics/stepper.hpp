@@ -1,5 +1,5 @@
 // What steps bodies from collision to collision.
-// In: a BodySystem without problems. Out: its collisions one after the other, and up to when they
+// In: a System without problems. Out: its collisions one after the other, and up to when they
 // are certain to be the true ones.
 #pragma once
 
@@ -13,15 +13,15 @@
 namespace piblocks {
 
 /// One collision; motions are those just after it.
-struct BodyStep {
+struct SteppedCollision {
   Time time;
   std::optional<Rational> exact_time = {};  ///< if the engine knows it
   /// Whether one of the two is about to meet another at the same time; false if not known exactly.
   bool is_tied = false;
-  std::uint32_t first = 0;  ///< as in BodyCollision
+  std::uint32_t first = 0;  ///< as in Collision
   std::uint32_t second = 0;
-  BodyMotion first_after = {};
-  BodyMotion second_after = {};
+  Motion first_after = {};
+  Motion second_after = {};
 };
 
 /// Until when rounding cannot have changed what collides with what. Before that time each body
@@ -31,17 +31,17 @@ struct Certainty {
   double until = kForEver;  ///< simulation time
 };
 
-class BodyStepper {
+class Stepper {
  public:
-  BodyStepper() = default;
-  BodyStepper(const BodyStepper&) = delete;
-  BodyStepper& operator=(const BodyStepper&) = delete;
-  virtual ~BodyStepper() = default;
+  Stepper() = default;
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+  virtual ~Stepper() = default;
 
   /// The next collision; none if there will be no more. Times never decrease. Several at the same
   /// time are in the order of TieRank (contact.hpp).
   /// @throws SimulationError if a number leaves the range of a double.
-  virtual std::optional<BodyStep> step() = 0;
+  virtual std::optional<SteppedCollision> step() = 0;
   /// What is known so far: that all steps before this time are certain. It falls once, from for
   /// ever to a time not before the last certain collision.
   virtual Certainty certainty() const = 0;
@@ -49,15 +49,15 @@ class BodyStepper {
 
 /// Discs in a plane, in double precision, with an error bound for every number. A step costs
 /// O(log N) for N discs of like size.
-std::unique_ptr<BodyStepper> make_disc_stepper(const BodySystem& system);
+std::unique_ptr<Stepper> make_disc_stepper(const System& system);
 
 /// Blocks on a line: in rational numbers while these are short, then in double precision with an
 /// error bound.
-std::unique_ptr<BodyStepper> make_line_stepper(const BodySystem& system);
+std::unique_ptr<Stepper> make_line_stepper(const System& system);
 
 /// Engine::events: EventSimulator in double precision. Nothing bounds its errors, so that all of
 /// its steps count as certain.
 /// @throws UsageError if there are more than kMaxEventBodies.
-std::unique_ptr<BodyStepper> make_event_stepper(const BodySystem& system);
+std::unique_ptr<Stepper> make_event_stepper(const System& system);
 
 }  // namespace piblocks

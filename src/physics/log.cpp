@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <cmath>
 
-#include "physics/blocks.hpp"
-#include "physics/body_logs.hpp"
+#include "physics/logs.hpp"
+#include "physics/problems.hpp"
 
 namespace piblocks {
 
-BodyMotion motion_at_start(const BodySystem& system, std::size_t id) {
+Motion motion_at_start(const System& system, std::size_t id) {
   const auto rounded = [](const ExactVector& vector) {
     return std::array<double, 2>{to_double(vector[0]), to_double(vector[1])};
   };
@@ -19,13 +19,34 @@ BodyMotion motion_at_start(const BodySystem& system, std::size_t id) {
   return {rounded(system.bodies[id].position), rounded(system.bodies[id].velocity)};
 }
 
-std::vector<BodyMotion> motions_at_start(const BodySystem& system) {
-  std::vector<BodyMotion> motions;
+std::vector<Motion> motions_at_start(const System& system) {
+  std::vector<Motion> motions;
   motions.reserve(system.bodies.size());
   for (std::size_t body = 0; body < system.bodies.size(); ++body) {
     motions.push_back(motion_at_start(system, body));
   }
   return motions;
+}
+
+void require_finite(const Time& time, const BlockMotion& blue, const BlockMotion& red,
+                    const char* engine) {
+  for (const double number : {time.hi, blue.position, blue.velocity, red.position, red.velocity}) {
+    if (std::isfinite(number)) continue;
+    throw SimulationError(
+        fmt::format("{}: a time, position or velocity is beyond the range of a double (about "
+                    "1.8e308)",
+                    engine));
+  }
+}
+
+TiedCollision::TiedCollision(const Integer& index, Integer last)
+    : UsageError(fmt::format(
+          "collision #{}: happens at the same time as all up to #{}; name the last of them",
+          index.get_str(), last.get_str())),
+      last_(std::move(last)) {}
+
+void require_last(const Integer& index, const Integer& last_at_its_time) {
+  if (index != last_at_its_time) throw TiedCollision(index, last_at_its_time);
 }
 
 void require_not_negative(const Rational& time) {
@@ -56,18 +77,26 @@ Integer Log::first_since(const Rational& time) const {
   return last + 1;
 }
 
-std::unique_ptr<Log> make_log(const BodySystem& system, const std::optional<Rational>& horizon,
+std::unique_ptr<Log> make_log(const System& system, const std::optional<Rational>& horizon,
                               const std::stop_token& stop, Engine engine) {
   require_valid(problems_of(system));
   return make_log_of_valid(system, horizon, stop, engine);
 }
 
-std::unique_ptr<Log> make_log_of_valid(const BodySystem& system,
-                                       const std::optional<Rational>& horizon,
+std::unique_ptr<Log> make_log_of_valid(const System& system, const std::optional<Rational>& horizon,
                                        const std::stop_token& stop, Engine engine) {
-  if (two_blocks_of(system)) return make_valid_collision_log(system, engine);
+  if (two_blocks_of(system)) return make_valid_pair_log(system, engine);
   if (horizon) require_not_negative(*horizon);
-  return make_stored_body_log(system, horizon, stop, engine);
+  return make_stepped_log(system, horizon, stop, engine);
+}
+
+Integer count_collisions(const System& system, const std::optional<Rational>& horizon) {
+  const std::optional<TwoBlocks> blocks = two_blocks_of(system);
+  return blocks ? count_collisions(*blocks) : make_log(system, horizon)->last();
+}
+
+std::optional<Rational> turn_of(const Log& log) {
+  return log.pair() ? turn_of(log.pair()->blocks()) : std::nullopt;
 }
 
 }  // namespace piblocks

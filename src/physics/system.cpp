@@ -1,5 +1,6 @@
 #include <fmt/format.h>
-#include <piblocks/bodies.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -7,18 +8,18 @@
 #include <optional>
 #include <set>
 
-#include "physics/blocks.hpp"
 #include "physics/exact_line.hpp"
+#include "physics/problems.hpp"
 
 namespace piblocks {
 namespace {
 
 /// What messages call a body; without a name, bodies are counted from 1 there.
-std::string name_of(const BodySystem& system, std::size_t body) {
+std::string name_of(const System& system, std::size_t body) {
   const std::string& name = system.bodies[body].name;
   return name.empty() ? fmt::format("body {}", body + 1) : name;
 }
-std::string key_of(const BodySystem& system, std::size_t body, const char* value) {
+std::string key_of(const System& system, std::size_t body, const char* value) {
   return fmt::format("{}.{}", name_of(system, body), value);
 }
 
@@ -28,8 +29,7 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
 }
 
 /// Collects what is wrong with each body alone. In closed form masses may be of any size.
-void check_body(const BodySystem& system, std::size_t index, bool is_pair,
-                SceneProblems& problems) {
+void check_body(const System& system, std::size_t index, bool is_pair, SceneProblems& problems) {
   const Body& body = system.bodies[index];
   const auto key = [&](const char* value) { return key_of(system, index, value); };
   const char* const size = system.dimensions == 1 ? "width" : "radius";
@@ -50,7 +50,7 @@ void check_body(const BodySystem& system, std::size_t index, bool is_pair,
   problems.require_finite(key("velocity"), larger(body.velocity));
 }
 
-void check_wall(const BodySystem& system, const Wall& wall, std::size_t index,
+void check_wall(const System& system, const Wall& wall, std::size_t index,
                 SceneProblems& problems) {
   const Body& body = system.bodies[index];
   const Rational reach = body.size;
@@ -63,7 +63,7 @@ void check_wall(const BodySystem& system, const Wall& wall, std::size_t index,
 }
 
 /// What must be from left to right: wall, blue, red.
-void check_places(const BodySystem& system, SceneProblems& problems) {
+void check_places(const System& system, SceneProblems& problems) {
   const Rational& wall_face = system.walls[0].point[0];
   const Rational& blue = system.bodies[0].position[0];
   const Rational& red = system.bodies[1].position[0];
@@ -89,7 +89,7 @@ void check_places(const BodySystem& system, SceneProblems& problems) {
 }
 
 /// Blocks that overlap their neighbour, or are beyond a wall.
-void check_line(const BodySystem& system, SceneProblems& problems) {
+void check_line(const System& system, SceneProblems& problems) {
   std::vector<std::size_t> order(system.bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return system.bodies[i].position[0]; });
@@ -192,7 +192,7 @@ class OverlapSweep {
 };
 
 /// Discs that are beyond a wall, or overlap.
-void check_plane(const BodySystem& system, SceneProblems& problems) {
+void check_plane(const System& system, SceneProblems& problems) {
   const std::vector<Body>& bodies = system.bodies;
   const OverlapSweep sweep(bodies);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -204,7 +204,7 @@ void check_plane(const BodySystem& system, SceneProblems& problems) {
   }
 }
 
-void check_dimensions(const BodySystem& system, SceneProblems& problems) {
+void check_dimensions(const System& system, SceneProblems& problems) {
   problems.require(system.dimensions == 1 || system.dimensions == 2, "body",
                    "has {} dimensions: must have 1 or 2", system.dimensions);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
@@ -231,7 +231,7 @@ void check_dimensions(const BodySystem& system, SceneProblems& problems) {
   }
 }
 
-void check_restitution(const BodySystem& system, bool is_pair, SceneProblems& problems) {
+void check_restitution(const System& system, bool is_pair, SceneProblems& problems) {
   for (const auto& [key, value] : {std::pair("blocks.restitution", system.restitution),
                                    std::pair("wall.restitution", system.wall_restitution)}) {
     problems.require(value >= 0 && value <= 1, key,
@@ -248,7 +248,7 @@ void check_restitution(const BodySystem& system, bool is_pair, SceneProblems& pr
 
 }  // namespace
 
-std::vector<Problem> problems_of(const BodySystem& system) {
+std::vector<Problem> problems_of(const System& system) {
   SceneProblems problems;
   problems.require(!system.bodies.empty(), "body", "is missing: there must be at least one");
   problems.require(system.bodies.size() <= kMaxBodies, "body",
@@ -274,7 +274,7 @@ std::vector<Problem> problems_of(const BodySystem& system) {
   return problems.take();
 }
 
-bool may_never_end(const BodySystem& system) {
+bool may_never_end(const System& system) {
   if (system.dimensions == 1) {
     const std::vector<LineElement> elements = elements_of(system);
     const auto is_fixed = [](const LineElement& element) { return !element.mass; };
@@ -297,6 +297,24 @@ bool may_never_end(const BodySystem& system) {
       !system.walls.empty() && std::ranges::none_of(system.walls, is_rightmost);
   const auto fixed = std::ranges::count_if(system.bodies, [](const Body& b) { return !b.mass; });
   return is_enclosed || fixed + (system.walls.empty() ? 0 : 1) >= 2;
+}
+
+Rational mass_ratio_of(int digits, int base) {
+  if (digits < 1 || digits > kMaxDigits) {
+    throw UsageError(fmt::format("digits = {}: must be from 1 to {}", digits, kMaxDigits));
+  }
+  if (base < kMinBase || base > kMaxBase) {
+    throw UsageError(fmt::format("base = {}: must be from {} to {}", base, kMinBase, kMaxBase));
+  }
+  return power(base * base, static_cast<unsigned long>(digits - 1));
+}
+
+System article_system(int digits, int base) { return system_of(article_blocks(digits, base)); }
+
+bool has_short_names(const System& system) {
+  const auto& [dimensions, bodies, walls, restitution, wall_restitution] = system;
+  return bodies.size() == 2 && walls.size() == 1 && bodies[0].name == "blue" &&
+         bodies[1].name == "red" && walls[0].name == "wall";
 }
 
 }  // namespace piblocks
