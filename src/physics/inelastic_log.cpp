@@ -118,9 +118,9 @@ std::optional<Impact> InelasticLog::blocks_impact(CollisionKind kind, const Inte
 
 std::optional<PositionBounds> InelasticLog::bounds_at(const Rational& time) const {
   // Rounded once, from numbers of kPosition_bits and more.
-  constexpr double kUnitRoundoff = 0x1p-53 * (1 + 0x1p-40);
+  constexpr double kRoundoff = 0x1p-53 * (1 + 0x1p-40);
   const auto bound = [](const BlockMotion& block, const Rational& offset) {
-    return kUnitRoundoff * std::fabs(block.position) + 0x1p-150 * std::fabs(to_double(offset));
+    return kRoundoff * std::fabs(block.position) + 0x1p-150 * std::fabs(to_double(offset));
   };
   const PairState now = blocks_at(time);
   return PositionBounds{bound(now.blue, blue_offset_), bound(now.red, red_offset_)};
