@@ -86,6 +86,8 @@ class Log {
   /// The time until which collisions count where they may never end; nothing where they do. See
   /// make_log().
   virtual std::optional<Rational> horizon() const { return std::nullopt; }
+  /// Whether last() is known without a step.
+  virtual bool knows_last() const noexcept { return false; }
   /// Whether last() has an answer: the run ends, or there is a horizon.
   bool has_last() const { return !never_ends() || horizon(); }
   /// Whether the collision is one of first_index() … last(). Asks for no later ones.
@@ -137,6 +139,9 @@ class Log {
   /// are none. Immovable bodies count as walls.
   virtual std::optional<Impact> impact(CollisionKind kind, const Integer& first,
                                        const Integer& last) const;
+  /// For sound, a run's impulses are divided by this: the impulse that a wall gives a body of mean
+  /// mass at the mean speed. Its cost grows with the number of bodies.
+  virtual double impulse_unit() const;
 
   /// The log of two blocks beside something immovable; else nullptr.
   virtual const PairLog* pair() const noexcept { return nullptr; }

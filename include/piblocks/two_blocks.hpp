@@ -166,13 +166,14 @@ class PairLog : public Log {
   /// @throws SimulationError as blocks_collision().
   virtual PairExposure expose(const Rational& from, const Rational& to) const;
 
-  /// As impact(), with positions as seen from the wall.
+  /// As impact(), with the position of blue's centre as seen from the wall.
   virtual std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
                                               const Integer& last) const;
 
   // The same by the numbers of the bodies.
   Integer first_index() const override { return first_index_; }
   Integer last() const override { return last_; }
+  bool knows_last() const noexcept override { return true; }
   bool has(const Integer& index) const override { return index >= first_index_ && index <= last_; }
   Collision collision(const Integer& index) const override;
   Time collision_time(const Integer& index) const override { return blocks_collision(index).time; }
@@ -188,6 +189,7 @@ class PairLog : public Log {
   }
   std::optional<Impact> impact(CollisionKind kind, const Integer& first,
                                const Integer& last) const override;
+  double impulse_unit() const override { return 1; }
   const PairLog* pair() const noexcept override { return this; }
 
  protected:

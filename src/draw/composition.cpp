@@ -94,7 +94,7 @@ class Composer {
   }
 
   Layout lay_out() const {
-    if (!is_article_) return lay_out_stage(looks_, plan_.stage, plan_.is_floor_at_bottom);
+    if (!is_article_) return lay_out_stage(looks_, plan_);
     return lay_out_article(looks_, longest_count(scene_, looks_.log), plan_.stage);
   }
 

@@ -84,6 +84,7 @@ class FramePlanner {
 
   FramePlan run(double read_outs_height_px) {
     if (counter_ && view_.height_px < kRow * sizes_.short_side) return row(read_outs_height_px);
+    place_axis_on(view_.width_px);
     place_header();
     place_foot();
     const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
@@ -167,8 +168,14 @@ class FramePlanner {
     // The floor ends a margin before its area does.
     const double width = right_ - counter_width - 2 * sizes_.gap + sizes_.margin;
     plan_.stage = {0, top_, width, height};
+    place_axis_on(width);
     plan_.read_outs_top_px = top_ + height;
     return std::move(plan_);
+  }
+
+  void place_axis_on(double stage_width_px) {
+    const bool has_axis = view_.theme != Theme::article && !context_.is_plane();
+    if (has_axis) plan_.axis = place_axis(context_, stage_width_px);
   }
 
   void add_line(ItemId id, const std::string& text, double baseline, double size_px) {
@@ -245,7 +252,7 @@ class FramePlanner {
     place.slow_motion = {left, place.pi_baseline_px};
     if (counter_->slow_motion_px > 0) left -= counter_->slow_motion_px + sizes_.gap;
     // Blocks that stay left of this line may be beside it.
-    const bool is_above = left < right_ && reach_px(context_) > left;
+    const bool is_above = left < right_ && reach_px(context_, plan_.axis) > left;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
     place.pi_row_left_px = std::min(right_, left + sizes_.gap);
@@ -306,7 +313,7 @@ class FramePlanner {
     // In upright frames the loupe is below the digits of pi. It takes what diagrams do not need.
     const double spare =
         room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.short_side;
-    if (view_.height_px > view_.width_px && spare > 0 && may_show_loupe(context_)) {
+    if (view_.height_px > view_.width_px && spare > 0 && may_show_loupe(context_, plan_.axis)) {
       height += std::min(kLoupeRoom * sizes_.short_side, spare);
       plan_.is_floor_at_bottom = true;
     }

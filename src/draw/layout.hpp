@@ -115,11 +115,19 @@ struct CounterPlace {
   double pi_row_left_px = 0;     ///< left end of that label and of the digits of pi
 };
 
+/// Where positions on the axis of a line are in the frame.
+struct AxisPlace {
+  double origin_px = 0;         ///< of position 0
+  double scale = 1;             ///< pixels per unit
+  double visible_right_px = 0;  ///< blocks are seen up to here
+};
+
 struct FramePlan {
   std::vector<TextItem> lines;  ///< title and caption
   CounterPlace counter;
   Rect logo;  ///< empty unless asked for
   Rect stage;
+  AxisPlace axis;                   ///< of a line, unless its picture is the article's
   bool is_floor_at_bottom = false;  ///< all spare height of the stage is above the blocks
   double header_bottom_px = 0;      ///< lower end of title, counter and digits of pi
   double read_outs_top_px = 0;
@@ -139,29 +147,24 @@ struct CounterRoom {
 FramePlan plan_frame(const LayoutContext& context, const std::optional<CounterRoom>& counter,
                      double read_outs_height_px);
 
+/// The axis of a line on a stage that begins at the left edge, however high it is.
+/// @throws UsageError if the view is beyond a wall, or too close to tell positions.
+AxisPlace place_axis(const LayoutContext& context, double stage_width_px);
+
 /// How far to the right blocks and what is above them come while the film lasts, in pixels;
 /// infinite where that is not known beforehand.
-double reach_px(const LayoutContext& context);
+double reach_px(const LayoutContext& context, const AxisPlace& axis);
 
-/// The places of the stage in its area: of blocks on a line, or of discs in a plane.
-/// @throws UsageError if the view is right of the wall, too close to tell positions, or the area
-///         is too low for the blocks.
-/// @param is_floor_at_bottom  as in FramePlan
-Layout lay_out_stage(const LayoutContext& context, const Rect& area,
-                     bool is_floor_at_bottom = false);
+/// The places of the stage: of blocks on a line, or of discs in a plane.
+/// @throws UsageError if the stage is too low for the bodies, or positions in a plane cannot be
+///         told.
+Layout lay_out_stage(const LayoutContext& context, const FramePlan& plan);
 /// The same of the article's picture. @param longest_count  of those that will be shown
 Layout lay_out_article(const LayoutContext& context, const Integer& longest_count,
                        const Rect& area);
 
 /// @throws UsageError if positions, which are doubles, would be drawn in wrong places.
 void check_resolution(const View& view, double scale);
-
-/// Where positions on the axis are in the frame.
-struct AxisPlace {
-  double origin_px = 0;  ///< of position 0
-  double scale = 1;      ///< pixels per unit
-  double visible_right_px = 0;
-};
 
 /// The two blocks of a closed form while the picture is exposed, as seen from their wall.
 /// @param red, blue  at its instant, without dwells

@@ -218,9 +218,9 @@ std::optional<SteppedCollision> CertifiedLine::step() {
   }
 }
 
-Certainty CertifiedLine::certainty() const {
-  if (is_certain()) return {};
-  return {std::nextafter(begin_.hi, 0.0) + certain_until_ * (1 - 0x1p-50)};
+double CertifiedLine::certain_until() const {
+  if (is_certain()) return kForEver;
+  return std::nextafter(begin_.hi, 0.0) + certain_until_ * (1 - 0x1p-50);
 }
 
 }  // namespace piblocks

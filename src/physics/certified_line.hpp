@@ -28,7 +28,7 @@ class CertifiedLine {
   /// The next collision; none if there will be no more.
   /// @throws SimulationError if a number leaves the range of a double.
   std::optional<SteppedCollision> step();
-  Certainty certainty() const;
+  double certain_until() const;
 
  private:
   struct Element {
@@ -61,7 +61,7 @@ class CertifiedLine {
     const CertifiedLine& line;
     bool operator()(std::size_t a, std::size_t b) const;
   };
-  static constexpr double kNever = Certainty::kForEver;
+  static constexpr double kNever = piblocks::kForEver;
 
   bool is_certain() const noexcept { return certain_until_ == kNever; }
   Approach approach(std::size_t pair) const;

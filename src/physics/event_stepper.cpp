@@ -30,7 +30,7 @@ class EventStepper final : public Stepper {
     step.second_after = motion_of(event->second_after);
     return step;
   }
-  Certainty certainty() const override { return {}; }
+  double certain_until() const override { return kForEver; }
 
  private:
   using Simulator = EventSimulator<double, Dim>;

@@ -110,7 +110,9 @@ Integer UnfoldedLog::count_near(const Time& time) const {
 std::optional<Impact> PairLog::impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const {
   std::optional<Impact> sum = blocks_impact(kind, first, last);
-  if (sum) sum->position *= blocks().side;
+  if (!sum) return sum;
+  const double to_red = blocks().side * to_double(blocks().blue.width) / 2;
+  sum->position = blocks().side * sum->position + (kind == CollisionKind::wall ? -to_red : to_red);
   return sum;
 }
 
@@ -156,8 +158,8 @@ std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
   return sum;
 }
 
-double impulse_unit(const Log& log) {
-  const double usual = log.pair() ? 0 : usual_impulse(log.system());
+double Log::impulse_unit() const {
+  const double usual = usual_impulse(system());
   return usual > 0 ? usual : 1;
 }
 

@@ -17,13 +17,9 @@ struct Impact {
   CollisionKind kind = CollisionKind::blocks;
   Time time;           ///< mean of the times, weighted by the impulses
   double impulse = 0;  ///< sum of the impulses
-  /// Of blue, or of one of the bodies, along x: at one collision; of several, a place between.
+  /// Where two blocks touch, or the centre of one of other bodies, along x: at one collision; of
+  /// several, a place between.
   double position = 0;
 };
-
-/// For sound, a run's impulses are divided by this: 1 for two blocks; for other bodies, the impulse
-/// that a wall gives a body of mean mass at the mean speed. Its cost grows with the number of
-/// bodies.
-double impulse_unit(const Log& log);
 
 }  // namespace piblocks

@@ -25,8 +25,8 @@ class LineStepper final : public Stepper {
     return step;
   }
 
-  Certainty certainty() const override {
-    return certified_ ? certified_->certainty() : Certainty();
+  double certain_until() const override {
+    return certified_ ? certified_->certain_until() : kForEver;
   }
 
  private:

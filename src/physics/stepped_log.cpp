@@ -286,8 +286,8 @@ class SteppedLog final : public Log {
 
   /// All steps so far are certain if the new one is the first that is not.
   void note_certainty() const {
-    const double until = stepper_->certainty().until;
-    if (certain_until_ || until == Certainty::kForEver) return;
+    const double until = stepper_->certain_until();
+    if (certain_until_ || until == kForEver) return;
     certain_until_ = steps_.empty() ? until : std::max(until, steps_.back().time.hi);
   }
 

@@ -24,12 +24,7 @@ struct SteppedCollision {
   Motion second_after = {};
 };
 
-/// Until when rounding cannot have changed what collides with what. Before that time each body
-/// meets those bodies and walls that it truly meets, in the true order.
-struct Certainty {
-  static constexpr double kForEver = std::numeric_limits<double>::infinity();
-  double until = kForEver;  ///< simulation time
-};
+inline constexpr double kForEver = std::numeric_limits<double>::infinity();
 
 class Stepper {
  public:
@@ -42,9 +37,10 @@ class Stepper {
   /// time are in the order of TieRank (contact.hpp).
   /// @throws SimulationError if a number leaves the range of a double.
   virtual std::optional<SteppedCollision> step() = 0;
-  /// What is known so far: that all steps before this time are certain. It falls once, from for
-  /// ever to a time not before the last certain collision.
-  virtual Certainty certainty() const = 0;
+  /// Until when rounding cannot have changed what collides with what, as far as is known by now.
+  /// Before that time each body meets those bodies and walls that it truly meets, in the true
+  /// order. It falls once, from kForEver to a time not before the last certain collision.
+  virtual double certain_until() const = 0;
 };
 
 /// Discs in a plane, in double precision, with an error bound for every number. A step costs

@@ -158,7 +158,7 @@ std::int64_t frames_before_reversal(const Scene& scene, const Schedule& schedule
 VideoCount video_count(const Scene& scene, const Log& log, const Schedule& schedule) {
   const std::int64_t last = frames_before_reversal(scene, schedule) - 1;
   const Integer at_end = log.count_at(schedule.time_of(last));
-  const bool is_known = log.pair() != nullptr || !log.has(at_end + 1);
+  const bool is_known = log.knows_last() || !log.has(at_end + 1);
   return {at_end, is_known ? std::optional(log.last()) : std::nullopt, is_endless(log)};
 }
 

@@ -33,7 +33,7 @@ double ClackStream::SampleStretch::sample_at(const Time& t) const {
 
 ClackStream::ClackStream(const Log& log, std::span<const Stretch> stretches,
                          const Rational& duration_s, int rate_hz)
-    : log_(log), impulse_unit_(impulse_unit(log)) {
+    : log_(log), impulse_unit_(log.impulse_unit()) {
   add_first_instant(stretches, rate_hz);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& stretch = stretches[i];

@@ -26,19 +26,11 @@ ClackStream stream_of(const Voice& voice, int rate_hz) {
   return {voice.log, stretches, voice.end_s - voice.begin_s + later_s, rate_hz};
 }
 
-/// How far the place where blue meets the wall is from its centre, to the right; 0 of other bodies.
-double to_contact(const Log& log) {
-  if (log.pair() == nullptr) return 0;
-  const TwoBlocks& blocks = log.pair()->blocks();
-  return -blocks.side * to_double(blocks.blue.width) / 2;
-}
-
 }  // namespace
 
 RunSound::RunSound(const Voice& voice, const Rational& film_s, int rate_hz)
     : view_low_(to_double(voice.scene.view.x.low)),
       view_width_(to_double(voice.scene.view.x.high - voice.scene.view.x.low)),
-      to_wall_(to_contact(voice.log)),
       left_(voice.left),
       width_(voice.right - voice.left),
       sample_(first_sample(voice, rate_hz)),
@@ -61,8 +53,7 @@ RunSound::SampleRamp RunSound::in_samples(const std::optional<Ramp>& ramp, int r
 
 /// The weights of left and right, never 0, of equal power from one edge of the frame to the other.
 StereoSample RunSound::channels(const Clack& clack) const {
-  const double side = clack.kind == CollisionKind::wall ? to_wall_ : -to_wall_;
-  const double in_view = (clack.position + side - view_low_) / view_width_;
+  const double in_view = (clack.position - view_low_) / view_width_;
   const double x = left_ + width_ * std::clamp(in_view, 0.0, 1.0);
   const double angle = std::numbers::pi / 2 * (0.15 + 0.7 * x);
   const auto [sine, cosine] = rounded::sin_cos(angle);

@@ -63,7 +63,6 @@ class RunSound {
 
   double view_low_;
   double view_width_;
-  double to_wall_;  // from blue's centre to where it meets the wall
   double left_;
   double width_;
   std::int64_t sample_;  // of the film, the next one

@@ -50,7 +50,7 @@ void measure(std::uint32_t number) {
     const double start_s = thread_seconds();
     setups.push_back((start_s - begin_s) * 1e3);
     certain = 0;
-    while (stepper->certainty().until == Certainty::kForEver && certain < 3'000'000) {
+    while (stepper->certain_until() == kForEver && certain < 3'000'000) {
       stepper->step();
       ++certain;
     }

@@ -116,7 +116,7 @@ TEST(DiscSearch, OrderOfListingDoesNotMatter) {
     }
     ASSERT_EQ(a.first_after, b.first_after) << "collision " << k;
   }
-  EXPECT_EQ(ordered_stepper->certainty().until, shuffled_stepper->certainty().until);
+  EXPECT_EQ(ordered_stepper->certain_until(), shuffled_stepper->certain_until());
 }
 
 TEST(DiscSearch, GeneralEngineFindsTheSame) {
@@ -137,7 +137,7 @@ TEST(DiscSearch, GeneralEngineFindsTheSame) {
     EventSimulator<double, 2> simulator(balls);
     const auto stepper = make_disc_stepper(system);
     while (const auto step = stepper->step()) {
-      if (stepper->certainty().until != Certainty::kForEver) break;
+      if (stepper->certain_until() != kForEver) break;
       const auto event = simulator.step();
       ASSERT_TRUE(event);
       ASSERT_EQ(event->first, step->first);

@@ -205,8 +205,8 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
       if (!collision) break;
       add(expected, collision->first, collision->second, to_double(collision->time));
     }
-    const double until = line.certainty().until;
-    if (until < Certainty::kForEver) ++uncertain;
+    const double until = line.certain_until();
+    if (until < kForEver) ++uncertain;
     for (const auto& [body, meetings] : found) {
       for (std::size_t k = 0; k < meetings.size(); ++k) {
         const auto& [partner, time] = meetings[k];

@@ -41,7 +41,8 @@ TEST(ClackStream, HasEachCollisionAtItsSample) {
         const PairCollision c = log->blocks_collision(Integer(i + 1));
         EXPECT_EQ(clacks[i].kind, c.kind);
         EXPECT_NEAR(clacks[i].sample, (c.time.hi - 1) / to_double(s) * kRate_hz, 1e-6);
-        EXPECT_NEAR(clacks[i].position, c.blue.position, 1e-12);
+        const double to_contact = c.kind == CollisionKind::wall ? -0.5 : 0.5;
+        EXPECT_NEAR(clacks[i].position, c.blue.position + to_contact, 1e-12);
       }
     }
   }

@@ -59,16 +59,16 @@ class Comparison {
     while (steps_.size() < limit) {
       const std::optional<SteppedCollision> step = engine_->step();
       if (!step) {
-        check_.is_complete = engine_->certainty().until == Certainty::kForEver;
+        check_.is_complete = engine_->certain_until() == kForEver;
         break;
       }
       const bool is_pair = step->second < system_.bodies.size();
-      if (engine_->certainty().until != Certainty::kForEver) break;
+      if (engine_->certain_until() != kForEver) break;
       steps_.push_back({*step,
                         {engine_->bound_of(step->first),
                          is_pair ? engine_->bound_of(step->second) : discs::Bound{}}});
     }
-    until_ = engine_->certainty().until;
+    until_ = engine_->certain_until();
     std::erase_if(steps_, [&](const BoundedStep& s) { return s.step.time.hi >= until_; });
     queues_.resize(system_.bodies.size());
   }
@@ -146,7 +146,7 @@ class Comparison {
     }
     for (const double time : uncertain_) {
       if (time >= until_ - 2 * largest_time_error_) continue;
-      if (until_ == Certainty::kForEver && !check_.is_complete) continue;
+      if (until_ == kForEver && !check_.is_complete) continue;
       complain(fmt::format("a collision at {} is missing before {}", time, until_));
     }
   }
@@ -156,7 +156,7 @@ class Comparison {
   const System& system_;
   std::unique_ptr<DiscStepper> engine_;
   PreciseDiscs truth_;
-  double until_ = Certainty::kForEver;
+  double until_ = kForEver;
   std::vector<BoundedStep> steps_ = {};
   std::vector<std::vector<const BoundedStep*>> queues_ = {};
   std::vector<double> uncertain_ = {};

@@ -11,7 +11,7 @@
 namespace piblocks {
 
 struct CertaintyCheck {
-  std::size_t certain = 0;   ///< collisions before Certainty::until
+  std::size_t certain = 0;   ///< collisions before Stepper::certain_until()
   bool is_complete = false;  ///< all collisions are certain, and there are no more
   double widest = 0;         ///< the largest share of a bound that an error takes up
   std::vector<std::string> wrong = {};

@@ -54,7 +54,7 @@ std::string pi_line(const LayoutContext& context, std::size_t counted) {
 
 /// The last collision of the run; nothing if the film does not come that far.
 std::optional<Integer> last_shown(const Scene& scene, const Log& log) {
-  if (log.pair()) return log.last();
+  if (log.knows_last()) return log.last();
   if (!has_span(scene, log)) return std::nullopt;
   Integer last = log.count_at(span_of(scene, log).to);
   return log.has(last + 1) ? std::nullopt : std::optional(std::move(last));
@@ -182,12 +182,13 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
 }
 
 Integer longest_count(const Scene& scene, const Log& log) {
-  const bool is_pair = log.pair() != nullptr;
-  if (is_pair && log.first_index() > 0) return log.last();
+  if (log.knows_last() && log.first_index() > 0) return log.last();
   // A still may show an instant that no film comes to.
-  if (!has_span(scene, log)) return is_pair ? log.last() : to_integer(kMaxSteppedCollisions);
+  if (!has_span(scene, log)) {
+    return log.knows_last() ? log.last() : to_integer(kMaxSteppedCollisions);
+  }
   const Span span = span_of(scene, log);
-  Integer last = is_pair ? log.last() : log.count_at(span.to);
+  Integer last = log.knows_last() ? log.last() : log.count_at(span.to);
   const Integer first = log.count_at(span.from);
   const auto length = [&](const Integer& count) {
     return count_text(count, scene.show.base).size();

@@ -96,14 +96,10 @@ void check_is_seen(const DrawingContext& context, const Span& window) {
 
 }  // namespace
 
-bool may_show_loupe(const LayoutContext& context) {
-  const View& view = context.scene.view;
+bool may_show_loupe(const LayoutContext& context, const AxisPlace& axis) {
   if (context.pair() == nullptr) return false;
   if (!shows_wall(context) || !loupe_of(context.scene)) return false;
-  // The stage's scale is known only once there is a stage. It is not larger.
-  const double scale =
-      view.width_px / to_double(view.x.high - context.two_blocks().blocks().wall_face);
-  return least_gap(context) * scale < style::kMaxLoupeGap * context.sizes.short_side;
+  return least_gap(context) * axis.scale < style::kMaxLoupeGap * context.sizes.short_side;
 }
 
 std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context,

@@ -19,7 +19,7 @@
 namespace piblocks {
 
 /// Whether the loupe would be seen if it had room.
-bool may_show_loupe(const LayoutContext& context);
+bool may_show_loupe(const LayoutContext& context, const AxisPlace& axis);
 
 class LoupeInset {
  public:

@@ -20,43 +20,18 @@ constexpr double kHeightByMass = 0.25;
 constexpr std::size_t kMostMarked = 10'000;
 constexpr std::size_t kMostDrawn = 50'000;
 
-/// What is seen of the axis, and where.
-struct Axis {
-  Axis(const System& system, const View& view, const Rect& area) : range(view.x) {
-    const Sizes sizes(view);
-    const LineWalls all = line_walls(system);
-    const LineWalls seen = seen_walls(system, view);
-    // Nothing is drawn behind a wall's face.
-    if (all.left) range.low = std::max(range.low, *all.left);
-    if (all.right) range.high = std::min(range.high, *all.right);
-    check(view, all);
-    const double beside_wall = sizes.margin + style::kWallWidth * sizes.short_side;
-    const double opposite = seen.left || seen.right ? sizes.margin : 0;
-    left_px = area.x + (seen.left ? beside_wall : opposite);
-    const double right = area.right() - (seen.right ? beside_wall : opposite);
-    scale = (right - left_px) / to_double(range.high - range.low);
-    if (scale < kLeastRounded_px) return;
-    scale = 2 * std::floor(scale / 2);
-    left_px = std::round(left_px);
-  }
-
-  Range range;
-  double left_px = 0;  ///< of its lower end
-  double scale = 1;    ///< pixels per unit
-
- private:
-  void check(const View& view, const LineWalls& walls) const {
-    if (range.high > range.low) return;
-    if (walls.left && view.x.high <= *walls.left) {
-      throw UsageError(fmt::format(
-          "view.x: ends at {}, and the wall's face is at {}; raise its upper end, or move the wall",
-          to_text(range.high), to_text(*walls.left)));
-    }
+/// @throws UsageError unless the view shows some of what is between the walls.
+void check_is_between(const LineWalls& walls, const Range& seen, const View& view) {
+  if (seen.high > seen.low) return;
+  if (walls.left && view.x.high <= *walls.left) {
     throw UsageError(fmt::format(
-        "view.x: begins at {}, and the wall's face is at {}; lower its lower end, or move the wall",
-        to_text(range.low), to_text(range.high)));
+        "view.x: ends at {}, and the wall's face is at {}; raise its upper end, or move the wall",
+        to_text(seen.high), to_text(*walls.left)));
   }
-};
+  throw UsageError(fmt::format(
+      "view.x: begins at {}, and the wall's face is at {}; lower its lower end, or move the wall",
+      to_text(seen.low), to_text(seen.high)));
+}
 
 /// The heights of blocks, in those of the lightest one.
 std::vector<double> height_ratios(const System& system, const Rational& least_mass) {
@@ -100,17 +75,15 @@ void fit_heights(double room_px, const View& view, Layout& layout) {
   }
 }
 
-Layout lay_out_line(const LayoutContext& context, const Rect& area, bool is_floor_at_bottom) {
+Layout lay_out_line(const LayoutContext& context, const FramePlan& plan) {
   const View& view = context.scene.view;
   const Sizes& sizes = context.sizes;
-  const Axis axis(context.scene.system, view, area);
+  const Rect& area = plan.stage;
   Layout layout;
-  const bool is_whole = area.width >= view.width_px;
   layout.content_right_px = area.right() - sizes.margin;
-  layout.visible_right_px = is_whole ? view.width_px : std::floor(layout.content_right_px);
+  layout.visible_right_px = plan.axis.visible_right_px;
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
-  layout.scale = axis.scale;
-  check_resolution(view, layout.scale);
+  layout.scale = plan.axis.scale;
 
   const double below = sizes.wall_line + room_below_px(context.scene);
   set_blocks(context.scene.system, layout);
@@ -123,9 +96,10 @@ Layout lay_out_line(const LayoutContext& context, const Rect& area, bool is_floo
     // If a block is now too low for its label, that moves above it and needs room there.
   } while (room_above_px(context, layout) > above);
   // What is left over is above and below in equal parts.
-  const double rest = is_floor_at_bottom ? 0 : (room - (layout.floor_px - layout.top_px())) / 2;
+  const double rest =
+      plan.is_floor_at_bottom ? 0 : (room - (layout.floor_px - layout.top_px())) / 2;
   layout.floor_px = std::floor(area.bottom() - below - rest);
-  layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
+  layout.origin = {plan.axis.origin_px, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;
   layout.below_px = area.bottom() - layout.floor_px;
   layout.wall_bottom_px = layout.floor_px + sizes.wall_line;
@@ -205,7 +179,31 @@ void check_resolution(const View& view, double scale) {
                   step_px / scale, step_px));
 }
 
-double reach_px(const LayoutContext& context) {
+AxisPlace place_axis(const LayoutContext& context, double stage_width_px) {
+  const View& view = context.scene.view;
+  const Sizes& sizes = context.sizes;
+  const LineWalls all = line_walls(context.scene.system);
+  const LineWalls seen = seen_walls(context.scene.system, view);
+  Range range = view.x;  // nothing is drawn behind a wall's face
+  if (all.left) range.low = std::max(range.low, *all.left);
+  if (all.right) range.high = std::min(range.high, *all.right);
+  check_is_between(all, range, view);
+  const double beside_wall = sizes.margin + style::kWallWidth * sizes.short_side;
+  const double opposite = seen.left || seen.right ? sizes.margin : 0;
+  double left_px = seen.left ? beside_wall : opposite;
+  const double right_px = stage_width_px - (seen.right ? beside_wall : opposite);
+  double scale = (right_px - left_px) / to_double(range.high - range.low);
+  if (scale >= kLeastRounded_px) {
+    scale = 2 * std::floor(scale / 2);
+    left_px = std::round(left_px);
+  }
+  check_resolution(view, scale);
+  const bool is_whole = stage_width_px >= view.width_px;
+  return {left_px - to_double(range.low) * scale, scale,
+          is_whole ? view.width_px : std::floor(stage_width_px - sizes.margin)};
+}
+
+double reach_px(const LayoutContext& context, const AxisPlace& axis) {
   const Scene& scene = context.scene;
   const PairLog* const log = context.pair();
   if (log == nullptr || log->blocks().side < 0) return HUGE_VAL;
@@ -214,15 +212,12 @@ double reach_px(const LayoutContext& context) {
   // Red comes nearer and nearer, and then goes farther and farther away.
   const double farthest =
       std::max(log->blocks_at(span.from).red.position, log->blocks_at(span.to).red.position);
-  const Axis axis(context.scene.system, scene.view, whole(scene.view));
-  const double right = farthest + to_double(log->blocks().red.width) / 2;
-  return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
+  return axis.origin_px + (farthest + to_double(log->blocks().red.width) / 2) * axis.scale;
 }
 
-Layout lay_out_stage(const LayoutContext& context, const Rect& area, bool is_floor_at_bottom) {
+Layout lay_out_stage(const LayoutContext& context, const FramePlan& plan) {
   check_number(context);
-  if (context.is_plane()) return lay_out_plane(context, area);
-  return lay_out_line(context, area, is_floor_at_bottom);
+  return context.is_plane() ? lay_out_plane(context, plan.stage) : lay_out_line(context, plan);
 }
 
 }  // namespace piblocks

@@ -54,7 +54,7 @@ class Stepper final : public DiscStepper {
   }
 
   std::optional<SteppedCollision> step() override;
-  Certainty certainty() const override { return {until_ * system_.units.time}; }
+  double certain_until() const override { return until_ * system_.units.time; }
   Bound bound_of(std::uint32_t body) const override {
     const Bound& bound = system_.bounds[body];
     const Units& units = system_.units;
