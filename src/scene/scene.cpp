@@ -1,6 +1,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -206,8 +206,7 @@ void Table::append_text(const RowText& text, const TableRows& rows, fmt::memory_
 void Table::write_npy(const TableRows& rows, char* at) const {
   constexpr std::size_t kAtOnce = 4;
   std::vector<const void*> columns = rows.columns;
-  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector fills it
-  // twice
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): not filled twice
   const auto made = std::make_unique_for_overwrite<std::uint64_t[]>(made_columns_ * rows.size);
   std::uint64_t* next = made.get();
   for (std::size_t i = 0; i < columns.size(); ++i) {

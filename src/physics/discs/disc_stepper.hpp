@@ -1,5 +1,5 @@
 // The engine for discs, with what its tests ask for.
-// In: a System without problems. Out: see body_stepper.hpp.
+// In: a System without problems. Out: see stepper.hpp.
 #pragma once
 
 #include <cstdint>
