@@ -13,8 +13,7 @@ set(physics_may core physics)
 set(scene_may core physics scene)
 set(sound_may core physics scene sound)
 # Drawing sees states and collisions, not the engines that make them.
-set(draw_may core physics/block_system physics/bodies physics/restitution physics/run
-    physics/log physics/exposure scene draw)
+set(draw_may core physics/system physics/two_blocks physics/log physics/exposure scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core h264 media)
 set(golden_may core media golden)
@@ -30,8 +29,8 @@ list(REMOVE_ITEM web_may python)
 # The layer of each header in include/piblocks.
 set(core_headers error exact image version)
 set(h264_headers)
-set(physics_headers block_system bodies contact event_simulator log restitution run)
-set(scene_headers instant pacing scene script)
+set(physics_headers contact event_simulator log system two_blocks)
+set(scene_headers instant scene script)
 set(media_headers encode)
 set(golden_headers compare)
 set(render_headers render)
