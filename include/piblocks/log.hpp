@@ -108,6 +108,9 @@ class Log {
   /// @throws UsageError if the time is negative, unless the past is known; SimulationError if there
   ///         are more than kMaxSteppedCollisions until then.
   virtual State state_at(const Rational& time) const = 0;
+  /// How far the position of each body may be from the truth at most, in units of length; nothing
+  /// where that is not known, as of all that is stepped. @throws as state_at().
+  virtual std::optional<std::vector<double>> position_bounds(const Rational& time) const;
   /// Index of the last collision until then; 0 for times before 0 whose past is not known.
   virtual Integer count_at(const Rational& time) const = 0;
   /// The first collision at this time or later; the one after the last if there is none.
@@ -131,6 +134,8 @@ class Log {
   /// each one meets others. Nothing if that holds up to `time`; without a time, for the whole run,
   /// until some 10^9 times as long as it takes.
   virtual std::optional<double> certain_until(const std::optional<Rational>& time) const = 0;
+  /// Whether that holds at all times, known without a step.
+  virtual bool is_always_certain() const noexcept { return false; }
 
   /// As count_at(), except that collisions within the rounding of `time` and of the engine may
   /// count as earlier or later. For two blocks, more collisions cost no more.

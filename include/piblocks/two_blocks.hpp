@@ -178,12 +178,14 @@ class PairLog : public Log {
   Collision collision(const Integer& index) const override;
   Time collision_time(const Integer& index) const override { return blocks_collision(index).time; }
   State state_at(const Rational& time) const override;
+  std::optional<std::vector<double>> position_bounds(const Rational& time) const override;
   Integer count_at(const Rational& time) const override { return blocks_at(time).count; }
   Integer first_since(const Rational& time) const override;
   std::vector<std::vector<PathPoint>> paths(const Rational& from, const Rational& to,
                                             std::size_t most) const override;
   bool is_exact(const Integer& /*index*/) const override { return false; }
   std::optional<Integer> first_tie(const Integer& last) const override;
+  bool is_always_certain() const noexcept override { return true; }
   std::optional<double> certain_until(const std::optional<Rational>& /*time*/) const override {
     return std::nullopt;
   }

@@ -71,6 +71,10 @@ bool Log::is_listed(const Integer& index) const {
   return has(index);
 }
 
+std::optional<std::vector<double>> Log::position_bounds(const Rational& /*time*/) const {
+  return std::nullopt;
+}
+
 Integer Log::first_since(const Rational& time) const {
   Integer last = count_at(time);
   while (last >= first_index() && collision_time(last) == to_time(time)) --last;

@@ -36,6 +36,15 @@ State PairLog::state_at(const Rational& time) const {
   return state;
 }
 
+std::optional<std::vector<double>> PairLog::position_bounds(const Rational& time) const {
+  const std::optional<PositionBounds> known = bounds_at(time);
+  if (!known) return std::nullopt;
+  std::vector<double> bounds(system().bodies.size(), 0);
+  bounds[blocks_.blue_id] = known->blue;
+  bounds[blocks_.red_id] = known->red;
+  return bounds;
+}
+
 Integer PairLog::first_since(const Rational& time) const {
   const Integer last = count_at(time);
   if (last < first_index()) return first_index();

@@ -81,11 +81,4 @@ std::string listed_collisions(const Log& log, const char* mark) {
       mark, readable(log.last()));
 }
 
-void require_blocks(const System& system, const char* what) {
-  if (has_short_names(system)) return;
-  throw UsageError(fmt::format(
-      "{}: needs two blocks and a fixed wall; leave it out, or leave out [[body]] and wall.mass",
-      what));
-}
-
 }  // namespace piblocks

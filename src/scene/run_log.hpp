@@ -41,8 +41,4 @@ std::optional<std::string> endless_note(const Scene& scene);
 /// @param mark  before each number
 std::string listed_collisions(const Log& log, const char* mark);
 
-/// @param what  in the message: an option
-/// @throws UsageError unless the bodies are blue, red and a wall.
-void require_blocks(const System& system, const char* what);
-
 }  // namespace piblocks

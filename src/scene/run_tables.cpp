@@ -58,13 +58,15 @@ void add_motions(TableLayout& layout, const System& system,
   }
 }
 
-/// The position and the velocity of a body in JSON.
-/// @param bound  between them
-std::string motion_text(const System& system, const std::string& body,
-                        const std::string& bound = {}) {
+std::string bound_name(const std::string& body) { return fmt::format("x_{}_bound", body); }
+
+/// The position and the velocity of a body in JSON, with the bound of the position between them.
+std::string motion_text(const System& system, const std::string& body, bool has_bound = false) {
+  const std::string bound =
+      has_bound ? fmt::format(R"(,"position_bound":<{}>)", bound_name(body)) : std::string();
   return system.dimensions == 2
-             ? fmt::format(R"({{"position":[<x_{0}>,<y_{0}>],"velocity":[<vx_{0}>,<vy_{0}>]}})",
-                           body)
+             ? fmt::format(R"({{"position":[<x_{0}>,<y_{0}>]{1},"velocity":[<vx_{0}>,<vy_{0}>]}})",
+                           body, bound)
              : fmt::format(R"({{"position":<x_{0}>{1},"velocity":<v_{0}>}})", body, bound);
 }
 
@@ -107,22 +109,19 @@ TableLayout collision_layout(const System& system, const std::vector<std::string
 
 void add_blue_and_red(TableLayout& layout, const System& system, bool has_bounds) {
   add_motions(layout, system, {"blue", "red"});
-  const auto motion = [&](const std::string& body) {
-    if (!has_bounds) return motion_text(system, body);
-    const std::string bound = fmt::format("x_{}_bound", body);
-    add_column(layout, bound, Kind::number, "<f8");
-    return motion_text(system, body, fmt::format(R"(,"position_bound":<{}>)", bound));
-  };
-  layout.json += fmt::format(R"("blue":{},)", motion("blue"));
-  layout.json += fmt::format(R"("red":{})", motion("red"));
+  for (const char* const body : {"blue", "red"}) {
+    if (has_bounds) add_column(layout, bound_name(body), Kind::number, "<f8");
+  }
+  layout.json += fmt::format(R"("blue":{},"red":{})", motion_text(system, "blue", has_bounds),
+                             motion_text(system, "red", has_bounds));
 }
 
-void add_bodies(TableLayout& layout, const System& system) {
+void add_bodies(TableLayout& layout, const System& system, bool has_bounds) {
   std::vector<std::string> bodies;
   std::vector<std::string> motions;
   for (std::size_t body = 1; body <= system.bodies.size(); ++body) {
     bodies.push_back(std::to_string(body));
-    motions.push_back(motion_text(system, bodies.back()));
+    motions.push_back(motion_text(system, bodies.back(), has_bounds));
   }
   const std::string shape = fmt::format(", ({}, {})", bodies.size(), system.dimensions);
   const std::string before = layout.npy;
@@ -130,6 +129,10 @@ void add_bodies(TableLayout& layout, const System& system) {
   layout.npy = before;  // NumPy has arrays of all bodies
   add_type(layout, "positions", "<f8", shape.c_str());
   add_type(layout, "velocities", "<f8", shape.c_str());
+  if (has_bounds) {
+    for (const std::string& body : bodies) add_column(layout, bound_name(body));
+    add_type(layout, "position_bounds", "<f8", fmt::format(", ({},)", bodies.size()).c_str());
+  }
   layout.json += fmt::format(R"("bodies":[{}])", fmt::join(motions, ","));
 }
 
@@ -208,18 +211,26 @@ void read_collisions(const Log& log, const Integer& first, const Integer& last, 
 }
 
 Table state_table(const System& system, bool has_bounds) {
-  if (has_bounds) require_blocks(system, "--bounds");
   TableLayout layout;
   add_column(layout, "time", Kind::number, "<f8");
   add_column(layout, "count", Kind::index, "<i8");
   layout.json = R"({"time":<time>,"collisions":"<count>",)";
   has_short_names(system) ? add_blue_and_red(layout, system, has_bounds)
-                          : add_bodies(layout, system);
+                          : add_bodies(layout, system, has_bounds);
   layout.json += '}';
   return Table(std::move(layout));
 }
 
 StateRow state_row(const Log& log, const Rational& time, bool has_bounds) {
+  std::optional<std::vector<double>> bounds;
+  if (has_bounds) {
+    bounds = log.position_bounds(time);
+    if (!bounds) {
+      throw UsageError(
+          "--bounds: only known of two blocks beside something immovable, and with --engine "
+          "unfolded; leave it out");
+    }
+  }
   const State state = log.state_at(time);
   const auto axes = std::ptrdiff_t{log.system().dimensions};
   StateRow row{state.count, state.count == infinite_count(log)};
@@ -231,13 +242,7 @@ StateRow state_row(const Log& log, const Rational& time, bool has_bounds) {
       row.numbers.insert(row.numbers.end(), vector.begin(), vector.begin() + axes);
     }
   }
-  if (!has_bounds) return row;
-  const std::optional<PositionBounds> bounds = log.pair()->bounds_at(time);
-  if (!bounds) {
-    throw UsageError(
-        "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
-  }
-  row.numbers.insert(row.numbers.end(), {bounds->blue, bounds->red});
+  if (bounds) row.numbers.insert(row.numbers.end(), bounds->begin(), bounds->end());
   return row;
 }
 

@@ -23,7 +23,6 @@ void read_collisions(const Log& log, const Integer& first, const Integer& last,
 
 /// The table of states; it has no CSV.
 /// @param has_bounds  whether it has, of each position, how far it may be from the truth
-/// @throws UsageError if it is to have bounds, and the system is not blue, red and a wall.
 Table state_table(const System& system, bool has_bounds);
 
 /// A row of the table of states.
@@ -35,7 +34,8 @@ struct StateRow {
   TableRows rows() const;
 };
 
-/// The state at a time. @throws UsageError if the engine knows no bounds; as Log::state_at()
+/// The state at a time.
+/// @throws UsageError if it is to have bounds that the log does not know; as Log::state_at()
 StateRow state_row(const Log& log, const Rational& time, bool has_bounds);
 
 /// The same as a JSON object, in one line without its end.

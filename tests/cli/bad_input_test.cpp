@@ -231,9 +231,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"state", "--at", "1,#999"}, "#999: the scene has collisions"},
         BadInput{{"state", "--at", "1,,2"}, "--at 1,,2: '': not a number"},
         BadInput{{"state", "--at", "1,"}, "--at 1,: '': not a number"},
-        BadInput{
-            {"state", "--at", "1,last", "--bounds", "--engine", "events"},
-            "--bounds: engines that step cannot say how exact they are; use --engine unfolded"},
+        BadInput{{"state", "--at", "1,last", "--bounds", "--engine", "events"},
+                 "--bounds: only known of two blocks beside something immovable, and with --engine "
+                 "unfolded; leave it out"},
         BadInput{{"state", "--at", "1", "2"}, "cannot read '2'"},
         BadInput{{"state", "--at", "1", "--at", "2"}, "--at is given more than once"}));
 

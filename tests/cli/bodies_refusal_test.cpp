@@ -7,10 +7,9 @@ namespace piblocks {
 namespace {
 
 TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
-  expect_line(
-      {"state", "meeting.toml", "--at", "1", "--bounds"},
-      "--bounds: needs two blocks and a fixed wall; leave it out, or leave out [[body]] and "
-      "wall.mass");
+  expect_line({"state", "meeting.toml", "--at", "1", "--bounds"},
+              "--bounds: only known of two blocks beside something immovable, and with --engine "
+              "unfolded; leave it out");
   expect_line({"count", "meeting.toml", "--digits", "3"},
               "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
   expect_line({"still", "meeting.toml", "--at", "1", "--loupe", "auto", "-o", "a.png"},

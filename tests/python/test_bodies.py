@@ -29,6 +29,17 @@ to = 4
 size = [128, 72]
 fps = 5
 """
+PAIR = """
+[[body]]
+mass = "inf"
+position = -1
+[[body]]
+position = 2
+[[body]]
+mass = 100
+position = 5
+velocity = -1
+"""
 LONGER = BLOCKS.replace("to = 4", "to = 40")
 # Double precision knows for a while only which of them collide next.
 UNCERTAIN = (TREE / "tests/support/uncertain_discs.toml").read_text()
@@ -166,6 +177,17 @@ def test_states_have_the_shape_of_the_times(t, shape):
         assert np.array_equal(states.positions.reshape(-1, 3, 1)[-1], alone.positions)
 
 
+def test_two_bodies_beside_a_third_have_bounds():
+    scene = scene_of(PAIR)
+    times = np.array([1.3, 3.7])
+    states = scene.state(times, bounds=True)
+    assert states.position_bounds.shape == (2, 3)
+    assert (states.position_bounds[:, 1:] > 0).all() and (states.position_bounds < 1e-14).all()
+    assert not states.position_bounds[:, 0].any()  # it does not move
+    assert np.array_equal(scene.state(3.7, bounds=True).position_bounds, states.position_bounds[1])
+    assert scene.state(times).position_bounds is None
+
+
 def test_energy_is_kept():
     states = scene_of(BLOCKS).state(np.linspace(0, 4, 101))
     energy = (np.array([1, 2, 3]) * states.velocities[..., 0] ** 2).sum(axis=1)
@@ -175,7 +197,7 @@ def test_energy_is_kept():
 
 def test_refusals_of_logs_and_states(program):
     scene = scene_of(BLOCKS)
-    with pytest.raises(piblocks.UsageError, match="^bounds: needs two blocks and a fixed wall"):
+    with pytest.raises(piblocks.UsageError, match="^bounds: only known of two blocks"):
         scene.state(1, bounds=True)
     assert scene.state(1).count == 1  # as if nothing had been asked
     with pytest.raises(piblocks.UsageError):

@@ -157,7 +157,7 @@ def test_bounds():
     states = SCENE.state([1, 2], bounds=True)
     assert states.dtype.names == FIELDS and (states["x_red_bound"] < 1e-12).all()
     assert SCENE.state(1, bounds=True).x_blue_bound == states["x_blue_bound"][0]
-    with pytest.raises(piblocks.UsageError, match="^bounds: engines that step cannot say"):
+    with pytest.raises(piblocks.UsageError, match="^bounds: only known of two blocks.* with engine unfolded"):
         SCENE.state(1, bounds=True, engine="events")
 
 

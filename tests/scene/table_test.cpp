@@ -209,9 +209,26 @@ TEST(RunTables, OtherBodiesAreNumbered) {
   EXPECT_EQ(state_at(line, 3), R"({"time":3,"collisions":"1","bodies":[{"position":3,)"
                                R"("velocity":0},{"position":4,"velocity":1},{"position":9,)"
                                R"("velocity":0}]})");
-  EXPECT_THROW(state_table(line, true), UsageError);
-  line.bodies[0].name = "blue";
-  EXPECT_THROW(state_table(line, true), UsageError) << "the other names are missing";
+}
+
+TEST(RunTables, BoundsAreThoseOfAnyTwoBlocks) {
+  // In closed form, on the left and on the right of what does not move, in any order of the list.
+  const System right{1, {{1, {0}, {1}}, {std::nullopt, {9}}, {1, {4}}}};
+  const std::string bounds = state_at(right, Rational(10, 3), true);
+  EXPECT_TRUE(bounds.starts_with(R"({"time":3.3333333333333335,"collisions":"1","bodies":[)"
+                                 R"({"position":3,"position_bound":)"))
+      << bounds;
+  EXPECT_NE(bounds.find(R"({"position":9,"position_bound":0,"velocity":0})"), std::string::npos)
+      << bounds;
+  const StateRow row = state_row(*make_log(right), Rational(10, 3), true);
+  ASSERT_EQ(row.numbers.size(), 1 + 3 * 3U);
+  const double error = to_double(abs(Rational(row.numbers[3]) - Rational(13, 3)));
+  EXPECT_GT(row.numbers[9], error);
+  EXPECT_LT(row.numbers[9], 1e-14);
+
+  const System four{1, {{1, {0}, {1}}, {1, {4}}, {1, {7}}, {std::nullopt, {9}}}};
+  EXPECT_THROW(state_row(*make_log(four), 1, true), UsageError);
+  EXPECT_THROW(state_row(*make_log(system_of({}), {}, {}, Engine::events), 1, true), UsageError);
 }
 
 TEST(RunTables, InAPlaneTheyHaveTwoCoordinates) {

@@ -319,7 +319,7 @@ std::vector<ReadOut> read_outs_of(const LayoutContext& context) {
   if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
   if (show.has(Overlay::energy)) read_outs.push_back(fitted(context, energy_read_out));
   if (show.has(Overlay::momentum)) read_outs.push_back(fitted(context, momentum_read_out));
-  if (!has_span(context.scene, context.log)) return read_outs;
+  if (context.log.is_always_certain() || !has_span(context.scene, context.log)) return read_outs;
   const Span span = span_of(context.scene, context.log);
   if (const std::optional<double> until = context.log.certain_until(span.to)) {
     read_outs.push_back(certainty_read_out(context, *until));

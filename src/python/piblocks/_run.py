@@ -50,6 +50,8 @@ class BodiesState:
     positions: np.ndarray
     #: As ``positions``; just after a collision that happens at that time.
     velocities: np.ndarray
+    #: How far each position may be from the truth, of each body; None unless bounds were asked for.
+    position_bounds: Optional[np.ndarray] = None
 
 
 def run_of(

@@ -290,7 +290,8 @@ class Scene:
             An array or a list of these: a structured array of its shape with the same fields. Its
             ``count`` is int64; if one does not fit, it is an object column of Python's ints. Where
             infinitely many collisions have happened, the count is ``math.inf``.
-        :param bounds: also how far each position may be from the truth.
+        :param bounds: also how far each position may be from the truth. Known of two blocks beside
+            something immovable.
         :raises UsageError: if the scene has no such instant; for a storyboard.
         """
         return _run.state(self._run("state", engine), t, flag("bounds", bounds))
