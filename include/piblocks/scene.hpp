@@ -69,10 +69,12 @@ struct LoupeWindow {
   Rational zoom;  ///< > 1
 };
 
-/// An inset that enlarges the gap between wall and red.
+/// An inset that enlarges a gap of blocks on a line: of two blocks beside something immovable the
+/// gap between that and red; of others the one that closes first in its window.
 struct Loupe {
   bool is_on = true;
-  /// Without a window it is seen wherever the gap is small, and enlarges by powers of ten.
+  /// Without a window it is seen wherever the gap is small, and enlarges by powers of ten. Other
+  /// blocks than two beside something immovable need one.
   std::optional<LoupeWindow> window = {};
 };
 

@@ -12,12 +12,12 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
-#include "cli/shipped_scenes.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/text.hpp"
 #include "render/references.hpp"
+#include "scene/shipped_scenes.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;

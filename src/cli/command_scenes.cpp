@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "cli/command.hpp"
-#include "cli/shipped_scenes.hpp"
 #include "cli/text_output.hpp"
 #include "core/output_file.hpp"
+#include "scene/shipped_scenes.hpp"
 
 namespace piblocks::cli {
 namespace {

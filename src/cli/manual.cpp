@@ -11,8 +11,8 @@
 #include "cli/app.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/shipped_scenes.hpp"
 #include "core/output_file.hpp"
+#include "scene/shipped_scenes.hpp"
 
 namespace piblocks::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "cli/options.hpp"
-#include "cli/shipped_scenes.hpp"
 #include "cli/text_output.hpp"
+#include "scene/shipped_scenes.hpp"
 #include "scene/toml_file.hpp"
 
 namespace piblocks::cli {
@@ -136,8 +136,9 @@ void SceneOptions::add_show() {
   add_flag({"show.hits", "--no-hits", "false"}, "No marks where the blocks hit");
   add_key("show.loupe", "--loupe", "auto|off|FROM:TO:ZOOM",
           "An inset that enlarges the gap between wall and red: where it is\n"
-          "small, by powers of ten; or from FROM to TO by ZOOM. FROM and TO\n"
-          "as 3.2, turn-0.3, last+1, #314");
+          "small, by powers of ten; or from FROM to TO by ZOOM. Of other blocks\n"
+          "on a line, the gap that closes first from FROM on. FROM and TO as\n"
+          "3.2, turn-0.3, last+1, #314");
   add_flag({"red.width", "--width-by-mass", "by-mass"}, "Make red as wide as its mass suggests");
 }
 

@@ -153,7 +153,7 @@ class Composer {
     add({[loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
            (*loupe)(shown, items);
          },
-         {.gaps = true}});
+         loupe_->needs()});
   }
 
   /// Title, caption and logo.

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/shipped_scenes.hpp"
 #include "core/text.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/scene_toml.hpp"
+#include "scene/shipped_scenes.hpp"
 
 namespace piblocks::web {
 namespace {
@@ -153,7 +153,7 @@ std::string shown_json(const LiveScript& live, const LiveScript::Place& place) {
 
 std::string program_json() {
   std::vector<std::string> scenes;
-  for (const cli::ShippedScene& scene : cli::shipped_scenes()) {
+  for (const ShippedScene& scene : shipped_scenes()) {
     scenes.push_back(fmt::format(R"({{"name":{},"summary":{},"text":{}}})", json_text(scene.name),
                                  json_text(scene.summary()), json_text(scene.text)));
   }

@@ -13,8 +13,8 @@ TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
   expect_line({"count", "meeting.toml", "--digits", "3"},
               "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
   expect_line({"still", "meeting.toml", "--at", "1", "--loupe", "auto", "-o", "a.png"},
-              "--loupe: show.loupe has a loupe, which needs two blocks beside one wall or fixed "
-              "block, and no more; leave it out");
+              "--loupe: show.loupe 'auto' is for two blocks beside one wall or fixed block, which "
+              "have a turn; give a window with a collision, as 1.9:2.1:100");
   EXPECT_EQ(entries(),
             (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));
 }

@@ -52,7 +52,7 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
   for (const int digits : {1, 2}) {
     SCOPED_TRACE(digits);
     const Frames frames(lecture(digits));
-    const PairLog& log = frames.log();
+    const PairLog& log = *frames.log().pair();
     const Schedule schedule = make_schedule(frames.scene(), log);
     int arcs_seen = 0;
     for (std::int64_t number = 0; number < schedule.frame_count().get_si(); ++number) {

@@ -28,10 +28,10 @@ class Frames {
  public:
   explicit Frames(const Settings& settings) : Frames(scene_with(settings)) {}
   explicit Frames(Scene scene)
-      : scene_(std::move(scene)), log_(make_pair_log(scene_.system)), composition_(scene_, *log_) {}
+      : scene_(std::move(scene)), log_(make_log(scene_.system)), composition_(scene_, *log_) {}
 
   const Scene& scene() const { return scene_; }
-  const PairLog& log() const { return *log_; }
+  const Log& log() const { return *log_; }
   Rational turn() const { return turn_of(*two_blocks_of(scene_.system)).value(); }
 
   FrameState state(const FrameTime& shown) const {
@@ -47,7 +47,7 @@ class Frames {
 
  private:
   Scene scene_;
-  std::unique_ptr<PairLog> log_;
+  std::unique_ptr<Log> log_;
   Composition composition_;
 };
 
@@ -70,9 +70,9 @@ std::vector<Item> items_of(const std::vector<DrawItem>& items, ItemId thing) {
 struct SeenLoupe {
   Rect bounds;  ///< in the frame
   double opacity = 0;
-  double face = 0;  ///< of the wall
-  Rect blue;
-  Rect red;
+  double face = 0;   ///< of the wall
+  Rect blue;         ///< the block in between, or a block that keeps its place
+  Rect red;          ///< the outer block
   std::string zoom;  ///< as it is written, without its power
   DrawList list;
 };
@@ -84,9 +84,13 @@ inline std::optional<SeenLoupe> loupe_in(const DrawList& frame) {
   SeenLoupe seen{group.bounds, group.opacity, 0, {}, {}, {}, *group.list};
   const PlateItem scenery = items_of<PlateItem>(seen.list.items, ItemId::wall).front();
   for (const auto& line : items_of<RectangleItem>(scenery.plate->items, ItemId::wall)) {
-    if (line.bounds.height > line.bounds.width) seen.face = line.bounds.right();
+    const Rect& bounds = line.bounds;
+    // A wall on the right has its bodies on the left.
+    const bool is_right = bounds.x > group.bounds.width / 2;
+    if (bounds.height > bounds.width) seen.face = is_right ? bounds.x : bounds.right();
   }
-  seen.blue = items_of<RectangleItem>(seen.list.items, ItemId::blue_block).front().bounds;
+  const auto blue = items_of<RectangleItem>(seen.list.items, ItemId::blue_block);
+  if (!blue.empty()) seen.blue = blue.front().bounds;
   seen.red = items_of<RectangleItem>(seen.list.items, ItemId::red_block).front().bounds;
   seen.zoom = items_of<TextItem>(frame.items, ItemId::loupe).front().text;
   return seen;

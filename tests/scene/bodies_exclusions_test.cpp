@@ -40,10 +40,14 @@ TEST_F(BodiesFile, KeysOfBlocksAreNotForBodies) {
 TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   const std::string body = "[[body]]\nposition = 1\n";
   const std::string& why = kNeedsPair;
-  for (const char* loupe : {"auto", "1:2:10"}) {
-    expect_problem(body + "[show]\nloupe = '" + loupe + "'\n", "4: show.loupe has a loupe" + why);
-  }
+  expect_problem(
+      body + "[show]\nloupe = 'auto'\n",
+      "4: show.loupe 'auto' is for two blocks beside one wall or fixed block, which have "
+      "a turn; give a window with a collision, as 1.9:2.1:100");
+  EXPECT_TRUE(problems(body + "[show]\nloupe = '1:2:10'\n").empty());
   EXPECT_TRUE(problems(body + "[show]\nloupe = 'off'\n").empty());
+  expect_problem("[[body]]\nposition = [1, 0]\n[show]\nloupe = '1:2:10'\n",
+                 "4: show.loupe is for blocks on a line; leave it out");
   expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays has 'digits'" + why);
   EXPECT_TRUE(problems(body + "[show]\noverlays = ['ruler']\n").empty());
   expect_problem("[[body]]\nposition = [1, 0]\n[show]\noverlays = ['ruler']\n",

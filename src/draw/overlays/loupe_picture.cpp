@@ -11,28 +11,27 @@
 namespace piblocks {
 namespace {
 
-// Of the break in blue, in fractions of the frame's shorter side.
+// Of the break in the block between, in fractions of the frame's shorter side.
 constexpr double kCutWidth = 0.016;
 constexpr double kCutSlant = 0.02;
-/// Where the lines to the inset begin, in parts of red's width from the gap.
-constexpr double kLinesInRed = 0.6;
+/// Where the lines to the inset begin, in parts of the outer block's width from the gap.
+constexpr double kLinesInOuter = 0.6;
 /// The share of its window in which the loupe fades in, and out.
 constexpr double kWindowFade = 0.1;
-/// At this many hits a frame or more, blue may be anywhere between wall and red, and the loupe
-/// shows mostly the interval that blue sweeps. Below a quarter of this it shows only the block.
+/// At this many hits a frame or more, the block between may be anywhere in the gap, and the loupe
+/// shows mostly the interval that it sweeps. Below a quarter of this it shows only the block.
 constexpr double kSweepHits = 1;
 constexpr double kSweepAlpha = 0.5;
-constexpr double kFastBlue = 0.35;  ///< alpha of blue then
+constexpr double kFastBlock = 0.35;  ///< alpha of the block then
 
 }  // namespace
 
 double LoupeInset::opacity(const FrameState& shown) const {
   const double from_px = style::kMaxLoupeGap * sizes_.short_side;
-  const double gap_px = shown.gaps.y2 * scale_;
+  const double gap_px = gap_.widths(shown, stage_).y2 * stage_.scale;
   double opacity = (from_px - gap_px) / (from_px * (1 - loupe_style::kFullyShown));
-  if (window_) {
-    const Rational way =
-        (shown.time - window_->span.from) / (window_->span.to - window_->span.from);
+  if (gap_.window) {
+    const Rational way = (shown.time - gap_.window->from) / (gap_.window->to - gap_.window->from);
     const double from_end = to_double(std::min<Rational>(way, 1 - way));
     opacity = std::min(opacity, from_end / kWindowFade);
   }
@@ -40,17 +39,18 @@ double LoupeInset::opacity(const FrameState& shown) const {
 }
 
 double LoupeInset::zoom(double gap) const {
-  const double room = room_px_ / (gap * scale_);
-  return window_ ? std::max(1.0, std::min(window_->zoom, room)) : zoom_.factor_for(room);
+  const double room = room_px_ / (gap * stage_.scale);
+  return window_zoom_ ? std::max(1.0, std::min(*window_zoom_, room)) : zoom_.factor_for(room);
 }
 
-/// They begin behind red, or above it: between the blocks they would be in the way.
+/// They begin behind the outer block, or above it: between the blocks they would be in the way.
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const Rect red = stage_.at(blocks_.red_id, shown);
-  // By whole pixels, they stay as they are while red hardly moves.
-  const Point from{std::round(red.x + kLinesInRed * red.width), lines_y_};
+  const Rect outer = stage_.at(gap_.outer, shown);
+  const double inside = kLinesInOuter * outer.width;
+  // By whole pixels, they stay as they are while the block hardly moves.
+  const Point from{std::round(gap_.side > 0 ? outer.x + inside : outer.right() - inside), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
   for (std::size_t n = 0; n < corners_.size(); ++n) {
     items.emplace_back(PathItem{nth(ItemId::wall, kFirstLine + n),
@@ -62,14 +62,14 @@ void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items
 void LoupeInset::operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const double zoomed = zoom(shown.gaps.y2);
+  const double zoomed = zoom(gap_.widths(shown, stage_).y2);
   items.emplace_back(GroupItem{ItemId::loupe, bounds_,
                                std::make_shared<const DrawList>(picture(shown, zoomed)), seen});
   add_zoom(zoomed, faded(palette_.text, seen), items);
 }
 
 DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
-  const double px_per_unit = scale_ * zoomed;
+  const double px_per_unit = stage_.scale * zoomed;
   DrawList list{static_cast<int>(bounds_.width), static_cast<int>(bounds_.height), background_, {}};
   list.items.emplace_back(scenery_);
   add_blocks(shown, px_per_unit, list.items);
@@ -90,60 +90,77 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
   return list;
 }
 
+Contact LoupeInset::contact_at(double x_px, double left_px, double right_px,
+                               const Color& color) const {
+  if (gap_.side < 0) std::swap(left_px, right_px);
+  return contact_of(placed(Point{x_px, 0}).x, floor_px_, left_px, right_px, color);
+}
+
 void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
                            std::vector<DrawItem>& items) const {
-  const Contact wall =
-      contact_of(face_px_, floor_px_, HUGE_VAL, blue_height_px_, palette_.blue.line);
-  const auto blocks = [&](double gap) {
-    return contact_of(face_px_ + gap * px_per_unit + blue_width_px_, floor_px_, blue_height_px_,
-                      red_height_px_, palette_.red.line);
+  const double near = gap_.between || anchor_ ? near_height_px_ : HUGE_VAL;
+  const auto at_outer = [&](double gap) {
+    return contact_at(face_px_ + gap * px_per_unit + between_px_, near, outer_height_px_,
+                      outer_.line);
   };
-  const auto is_of_blocks = [&](const Hit& hit) {
-    return hit.pair[0] == blocks_.red_id || hit.pair[1] == blocks_.red_id;
-  };
+  const Contact at_anchor = contact_at(face_px_, HUGE_VAL, near_height_px_, between_.line);
   for (std::size_t n = 0; n < shown.hits.size(); ++n) {
     const Hit& hit = shown.hits[n];
-    marks_->add_arc(nth(ItemId::hits, n), hit.age_s, is_of_blocks(hit) ? blocks(hit.gaps.y2) : wall,
+    const bool is_outer = hit.pair[0] == gap_.outer || hit.pair[1] == gap_.outer;
+    if (!gap_.between && !gap_.has(hit.pair)) continue;
+    marks_->add_arc(nth(ItemId::hits, n), hit.age_s, is_outer ? at_outer(hit.gaps.y2) : at_anchor,
                     items);
   }
-  marks_->add_glow(shown.hits_per_s, std::array{wall, blocks(shown.gaps.y2)}, items);
+  const double gap = gap_.widths(shown, stage_).y2;
+  if (gap_.between) {
+    std::array both{at_anchor, at_outer(gap)};
+    if (gap_.side < 0) std::swap(both[0], both[1]);
+    marks_->add_glow(shown.hits_per_s, both, items);
+  } else if (std::ranges::any_of(shown.met_pairs,
+                                 [&](const MetPair& pair) { return gap_.has(pair); })) {
+    marks_->add_glow(shown.hits_per_s, std::array{at_outer(gap)}, items);
+  }
 }
 
 void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
                             std::vector<DrawItem>& items) const {
-  const double red_x = face_px_ + shown.gaps.y2 * px_per_unit + blue_width_px_;
-  // Red's far side is outside.
-  const double red_width = std::max(0.0, bounds_.width - red_x) + 2 * line_px_;
-  add_rectangles(ItemId::red_block,
-                 block_at({red_x, floor_px_ - red_height_px_, red_width, red_height_px_},
-                          palette_.red, line_px_),
-                 items);
+  const Gaps gaps = gap_.widths(shown, stage_);
+  const auto add = [&](ItemId id, double left, double right, double height,
+                       const BlockColors& colors) {
+    const Rect block{left, floor_px_ - height, std::max(0.0, right - left), height};
+    add_rectangles(id, block_at(placed(block), colors, line_px_), items);
+  };
+  // The far sides are outside.
+  const double beyond = 2 * line_px_;
+  const double outer_x = face_px_ + gaps.y2 * px_per_unit + between_px_;
+  add(ItemId::red_block, outer_x, std::max(outer_x, bounds_.width) + beyond, outer_height_px_,
+      outer_);
+  if (anchor_) add(ItemId::blue_block, -beyond, face_px_, near_height_px_, *anchor_);
+  if (!gap_.between) return;
   const double hits = shown.hits_per_s / frames_per_s_;
   const double swept =
       std::clamp((hits - kSweepHits / 4) / (kSweepHits - kSweepHits / 4), 0.0, 1.0);
   if (swept > 0) {
-    items.emplace_back(
-        RectangleItem{nth(ItemId::red_block, kSweep),
-                      {face_px_, floor_px_ - blue_height_px_, red_x - face_px_, blue_height_px_},
-                      faded(palette_.blue.fill, swept * kSweepAlpha),
-                      std::nullopt});
+    items.emplace_back(RectangleItem{
+        nth(ItemId::red_block, kSweep),
+        placed(Rect{face_px_, floor_px_ - near_height_px_, outer_x - face_px_, near_height_px_}),
+        faded(between_.fill, swept * kSweepAlpha), std::nullopt});
   }
-  add_blue(face_px_ + shown.gaps.y1 * px_per_unit, 1 - swept * (1 - kFastBlue), items);
+  add_between(face_px_ + gaps.y1 * px_per_unit, 1 - swept * (1 - kFastBlock), items);
 }
 
-void LoupeInset::add_blue(double x_px, double seen, std::vector<DrawItem>& items) const {
-  const double top = floor_px_ - blue_height_px_;
-  BlockColors colors = palette_.blue;
+void LoupeInset::add_between(double x_px, double seen, std::vector<DrawItem>& items) const {
+  const Rect block = placed(Rect{x_px, floor_px_ - near_height_px_, between_px_, near_height_px_});
+  BlockColors colors = between_;
   colors.fill = faded(colors.fill, seen);
   colors.edge = faded(colors.edge, seen);
-  add_rectangles(ItemId::blue_block,
-                 block_at({x_px, top, blue_width_px_, blue_height_px_}, colors, line_px_), items);
+  add_rectangles(ItemId::blue_block, block_at(block, colors, line_px_), items);
   const double half = kCutWidth / 2 * sizes_.short_side;
   const double slant = kCutSlant / 2 * sizes_.short_side;
-  const double middle = x_px + blue_width_px_ / 2;
+  const double middle = block.x + block.width / 2;
   items.emplace_back(PathItem{nth(ItemId::blue_block, kCut),
-                              std::vector<Point>{{middle - half + slant, top},
-                                                 {middle + half + slant, top},
+                              std::vector<Point>{{middle - half + slant, block.y},
+                                                 {middle + half + slant, block.y},
                                                  {middle + half - slant, floor_px_},
                                                  {middle - half - slant, floor_px_}},
                               true, faded(palette_.background, seen), std::nullopt});
@@ -171,7 +188,7 @@ void LoupeInset::add_zoom(double zoomed, const Color& color, std::vector<DrawIte
       is_plain ? nullptr
                : &powers_.at(static_cast<std::size_t>(exponent - loupe_style::kLeastPower));
   const double width_em = widths_.width_em(text) + (power != nullptr ? power->width_em() : 0);
-  const Point left{zoom_right_.x - width_em * size_px, zoom_right_.y};
+  const Point left{zoom_end_.x - (is_zoom_end_left_ ? 0 : width_em * size_px), zoom_end_.y};
   const double text_px = widths_.width_em(text) * size_px;
   items.emplace_back(TextItem{nth(ItemId::loupe, 1), left, std::move(text), size_px, color, face_});
   if (power != nullptr) {

@@ -19,15 +19,17 @@ constexpr double kMassOverhang = 0.08;
 
 constexpr double kBelowLine_em = 0.3;  ///< from the baseline of the article's counter
 
-/// Finds room for the inset: to the right of the blocks, or above them.
+/// Works as if the blocks left to the right.
 class LoupePlacer {
  public:
-  LoupePlacer(const DrawingContext& context, const FramePlan& plan, const LoupeTexts& texts)
-      : context_(context), plan_(plan), texts_(texts) {}
+  LoupePlacer(const DrawingContext& context, const FramePlan& plan, const LoupeGap& gap,
+              const LoupeTexts& texts)
+      : context_(context), plan_(plan), gap_(gap), texts_(texts) {}
 
   std::optional<LoupePlace> find() const {
     // Below the least size of type nothing could be read.
     if (style::kLeastType * short_side() < style::kLeastText_px) return std::nullopt;
+    if (!gap_.between) return above_meeting();
     const double farthest = right() - width();
     const double floor = context_.layout.floor_px - loupe_style::kOutside * short_side();
     const double beside = blocks_right() + texts_.zoom_px + loupe_style::kOutside * short_side();
@@ -43,6 +45,22 @@ class LoupePlacer {
   }
 
  private:
+  /// Blocks may come from both sides.
+  std::optional<LoupePlace> above_meeting() const {
+    const double frame = context_.scene.view.width_px;
+    const double meeting = context_.layout.at(gap_.meeting, 0).x;
+    const double middle = gap_.side > 0 ? meeting : frame - meeting;
+    const auto place = [&](bool is_zoom_beside) {
+      double least = context_.sizes.margin;
+      if (gap_.side < 0) least = std::max(least, frame - context_.layout.content_right_px);
+      if (is_zoom_beside) least += texts_.zoom_px + loupe_style::kOutside * short_side();
+      const double left = std::min(std::max(middle - width() / 2, least), right() - width());
+      return left < least ? std::nullopt : at(left, stage_top(), is_zoom_beside);
+    };
+    std::optional<LoupePlace> found = place(false);
+    return found ? found : place(true);
+  }
+
   double short_side() const { return context_.sizes.short_side; }
   double row() const { return loupe_style::kRow_em * context_.sizes.text; }
   double width() const { return std::round(style::kLoupeWidth * short_side()); }
@@ -50,18 +68,19 @@ class LoupePlacer {
     const View& view = context_.scene.view;
     // The counter may be beside the stage.
     const bool is_article = view.theme == Theme::article;
-    return is_article ? view.width_px - context_.sizes.margin : context_.layout.content_right_px;
+    return is_article || gap_.side < 0 ? view.width_px - context_.sizes.margin
+                                       : context_.layout.content_right_px;
   }
 
-  /// Red and what is above it stay left of this while the loupe is seen.
+  /// The blocks and what is above them stay left of this while the loupe is seen.
   double blocks_right() const {
     const Layout& layout = context_.layout;
     const Show& show = context_.scene.show;
     const TwoBlocks& blocks = context_.two_blocks().blocks();
-    const double face = layout.at(to_double(blocks.wall_face), 0).x;
-    double right =
-        face + style::kMaxLoupeGap * short_side() +
-        (layout.shapes[blocks.blue_id].width + layout.shapes[blocks.red_id].width) * layout.scale;
+    const double face = layout.at(gap_.side * to_double(blocks.wall_face), 0).x;
+    double right = (gap_.side > 0 ? face : context_.scene.view.width_px - face) +
+                   style::kMaxLoupeGap * short_side() + layout.width_px(*gap_.between) +
+                   layout.width_px(gap_.outer);
     if (show.has(Overlay::velocities)) right += kVelocityOverhang * short_side();
     if (!labelled_above(context_, layout).empty()) {
       right += kMassOverhang * short_side();
@@ -69,14 +88,14 @@ class LoupePlacer {
     return right + loupe_style::kOutside * short_side();
   }
 
-  /// Upper end of the room for something that reaches from `left` to the right.
-  double top(double left) const {
+  /// Upper end of the room for something in these columns.
+  double top(const Rect& columns) const {
     const bool is_article = context_.scene.view.theme == Theme::article;
     const CountLine& line = context_.layout.count_line;
     double top = std::max(plan_.stage.y, context_.sizes.margin);
     if (is_article) {
       top = std::max(top, line.label.y + kBelowLine_em * line.text_px);
-    } else if (left + width() + loupe_style::kOutside * short_side() >
+    } else if (columns.right() + loupe_style::kOutside * short_side() >
                plan_.counter.pi_row_left_px) {
       top = std::max(top, plan_.header_bottom_px);
     }
@@ -105,21 +124,25 @@ class LoupePlacer {
                                  loupe_style::kInside + kLeastBlocks) *
                                     short_side();
     const double lower = std::floor(bottom);
-    const double height = std::floor(std::min(kHeight * short_side(), lower - top(left)));
-    if (height < least || left < context_.sizes.margin) return std::nullopt;
-    return LoupePlace{{std::floor(left), lower - height, width(), height}, rows, is_zoom_beside};
+    const double x = gap_.side > 0 ? left : context_.scene.view.width_px - left - width();
+    Rect bounds{std::floor(x), 0, width(), 0};
+    bounds.height = std::floor(std::min(kHeight * short_side(), lower - top(bounds)));
+    bounds.y = lower - bounds.height;
+    if (bounds.height < least || left < context_.sizes.margin) return std::nullopt;
+    return LoupePlace{bounds, rows, is_zoom_beside};
   }
 
   const DrawingContext& context_;
   const FramePlan& plan_;
+  const LoupeGap& gap_;
   const LoupeTexts& texts_;
 };
 
 }  // namespace
 
 std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
-                                           const LoupeTexts& texts) {
-  return LoupePlacer(context, plan, texts).find();
+                                           const LoupeGap& gap, const LoupeTexts& texts) {
+  return LoupePlacer(context, plan, gap, texts).find();
 }
 
 }  // namespace piblocks

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "draw/layout.hpp"
+#include "draw/overlays/loupe_gap.hpp"
 
 namespace piblocks {
 
@@ -20,9 +21,10 @@ struct LoupeTexts {
   bool has_slow_motion = false;
 };
 
-/// Room for the inset to the right of the blocks, or above them; nothing if there is none.
+/// Room for the inset beside two blocks, on the side that they leave to; or above all blocks.
+/// Nothing if there is none.
 std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
-                                           const LoupeTexts& texts);
+                                           const LoupeGap& gap, const LoupeTexts& texts);
 
 /// Proportions of the inset.
 namespace loupe_style {

@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "cli/script_facts.hpp"
-#include "cli/shipped_scenes.hpp"
 #include "core/nearest_name.hpp"
 #include "python/extension/without_gil.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/scene_toml.hpp"
+#include "scene/shipped_scenes.hpp"
 
 namespace piblocks::python {
 namespace {
@@ -174,7 +174,7 @@ void bind_script(py::module_& module) {
       "scenes",
       [] {
         std::vector<std::pair<std::string, std::string>> scenes;
-        for (const cli::ShippedScene& scene : cli::shipped_scenes()) {
+        for (const ShippedScene& scene : shipped_scenes()) {
           scenes.emplace_back(scene.name, scene.summary());
         }
         return scenes;
@@ -182,7 +182,7 @@ void bind_script(py::module_& module) {
       "Name and summary of each shipped scene.");
   module.def(
       "scene_text",
-      [](const std::string& name) { return std::string(cli::find_shipped_scene(name).text); },
+      [](const std::string& name) { return std::string(find_shipped_scene(name).text); },
       py::arg("name"), "The scene file of a shipped scene.");
 }
 

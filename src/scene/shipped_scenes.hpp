@@ -11,7 +11,7 @@
 
 #include "core/overwrite_check.hpp"
 
-namespace piblocks::cli {
+namespace piblocks {
 
 struct ShippedScene {
   std::string_view name;  ///< of its file, without ".toml"
@@ -34,4 +34,4 @@ void read_scene(ScriptBuilder& builder, const std::string& scene);
 /// Enters the scene as a file that is read, unless it is a shipped one.
 void claim_scene(OverwriteCheck& check, const std::string& scene);
 
-}  // namespace piblocks::cli
+}  // namespace piblocks

@@ -1,4 +1,4 @@
-#include "cli/shipped_scenes.hpp"
+#include "scene/shipped_scenes.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "cli/shipped_scene_texts.hpp"
 #include "core/nearest_name.hpp"
+#include "scene/shipped_scene_texts.hpp"
 
-namespace piblocks::cli {
+namespace piblocks {
 namespace {
 
 const ShippedScene* shipped_scene(std::string_view name) {
@@ -26,7 +26,7 @@ bool is_file(const std::string& path) {
 }
 
 /// "; did you mean 'lecture'? 'piblocks scenes' lists them"
-std::string advice(const std::string& name) {
+std::string other_names(const std::string& name) {
   const std::string near = did_you_mean(name, shipped_scene_names());
   return fmt::format("{} 'piblocks scenes' lists them", near.empty() ? ";" : near);
 }
@@ -48,7 +48,7 @@ std::vector<std::string> shipped_scene_names() {
 
 const ShippedScene& find_shipped_scene(const std::string& name) {
   if (const ShippedScene* const scene = shipped_scene(name)) return *scene;
-  throw UsageError(fmt::format("scenes: there is no scene '{}'{}", name, advice(name)));
+  throw UsageError(fmt::format("scenes: there is no scene '{}'{}", name, other_names(name)));
 }
 
 void read_scene(ScriptBuilder& builder, const std::string& scene) {
@@ -63,11 +63,11 @@ void read_scene(ScriptBuilder& builder, const std::string& scene) {
   throw SceneError(
       fmt::format("scene: cannot read '{}': there is no such file, and no shipped scene has this "
                   "name{}",
-                  scene, advice(scene)));
+                  scene, other_names(scene)));
 }
 
 void claim_scene(OverwriteCheck& check, const std::string& scene) {
   if (shipped_scene(scene) == nullptr || is_file(scene)) check.reads("the scene file", scene);
 }
 
-}  // namespace piblocks::cli
+}  // namespace piblocks
