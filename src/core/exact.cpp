@@ -117,7 +117,9 @@ class NumberReader {
     }
     if (mantissa.empty()) throw UsageError(kNotANumber);
     if (take('e') || take('E')) scale += exponent();
-    const auto length = static_cast<double>(mantissa.size()) + std::fabs(double(scale));
+    const auto digits = static_cast<double>(mantissa.size());
+    // Of numerator or denominator.
+    const double length = scale > 0 ? digits + double(scale) : std::max(digits, -double(scale));
     if (length * kBitsPerDigit > double(max_bits_)) fail_too_long(max_bits_);
 
     Rational value{Integer(mantissa, 10)};

@@ -73,33 +73,36 @@ std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
   return bytes;
 }
 
-/// How Cairo names groups in an SVG file: "surface12" in version 1.16, "source-12" in 1.18.
-constexpr std::array<std::string_view, 2> kGroupNames = {"surface", "source-"};
+/// How Cairo names groups and images in an SVG file: "surface12" and "image5" in version 1.16,
+/// "source-12" in 1.18.
+constexpr std::array<std::string_view, 3> kNames = {"surface", "source-", "image"};
 
 /// Of the name that a text begins with; 0 if it begins with none.
-std::size_t length_of_group_name(std::string_view text) {
-  for (const std::string_view name : kGroupNames) {
+std::size_t length_of_name(std::string_view text) {
+  for (const std::string_view name : kNames) {
     if (text.starts_with(name)) return name.size();
   }
   return 0;
 }
 
-/// Cairo numbers groups through the whole process, so that equal draw lists give different files.
+/// Cairo numbers them through the whole process, so that equal draw lists give different files.
 /// This numbers them from the beginning of the file.
 std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
   const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());
   std::map<std::string_view, std::size_t> numbers;
   std::string fixed;
   std::size_t copied = 0;
-  for (auto at = text.find('s'); at != std::string_view::npos; at = text.find('s', at + 1)) {
-    const std::size_t length = length_of_group_name(text.substr(at));
-    if (length == 0) continue;
-    const bool is_name = text.substr(0, at).ends_with("id=\"") || text.substr(0, at).ends_with('#');
+  for (auto mark = text.find_first_of("\"#"); mark != std::string_view::npos;
+       mark = text.find_first_of("\"#", mark + 1)) {
+    const std::size_t at = mark + 1;
+    const std::size_t length = length_of_name(text.substr(at));
+    const bool is_name = text[mark] == '#' || text.substr(0, at).ends_with("id=\"");
+    if (length == 0 || !is_name) continue;
     const std::size_t begin = at + length;
     const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
-    if (!is_name || end == begin) continue;
-    const std::string_view count = text.substr(begin, end - begin);
-    const std::size_t number = numbers.try_emplace(count, numbers.size() + 1).first->second;
+    if (end == begin) continue;
+    const std::string_view name = text.substr(at, end - at);
+    const std::size_t number = numbers.try_emplace(name, numbers.size() + 1).first->second;
     fixed += text.substr(copied, at - copied);
     fixed += number == 1 ? "picture" : "picture" + std::to_string(number);
     copied = end;

@@ -172,22 +172,10 @@ class Composer {
     const std::vector<Panel>& panels = scene_.show.panels;
     for (std::size_t i = 0; i < panels.size(); ++i) {
       const auto make_panel = kPanels.at(static_cast<std::size_t>(panels[i]));
-      check_has_blocks(panels[i]);
       const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                    ids_from(static_cast<std::uint32_t>(i))};
       add(make_panel(context_, {plan_.panels[i], first_id, panels[i]}));
     }
-  }
-
-  /// @throws UsageError if the diagram shows what only two blocks beside a wall have.
-  void check_has_blocks(Panel panel) const {
-    constexpr std::array kForAll = {Panel::time, Panel::count, Panel::conservation, Panel::speeds,
-                                    Panel::separation};
-    if (context_.pair() != nullptr || std::ranges::count(kForAll, panel) > 0) return;
-    throw UsageError(
-        fmt::format("show.panels: '{}' shows two blocks beside a wall, which this scene does not "
-                    "have; leave it out",
-                    exact_text(panel)));
   }
 
   void add(Drawable drawable) { drawables_.push_back(std::move(drawable)); }

@@ -189,10 +189,6 @@ PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area) {
   return {left, top, std::max(0, right - left), bottom - top};
 }
 
-PixelRect moving_area(const MovingShapesItem& item, const PixelRect& area) {
-  return pixels_of(extent_of(item), area);
-}
-
 bool reaches(const DrawItem& item, const PixelRect& rect) {
   // A line of text is taken as endless rather than measured.
   static const MeasureText endless_em = [](Face /*face*/, std::string_view /*text*/) {

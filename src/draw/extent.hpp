@@ -36,9 +36,8 @@ std::vector<Rect> extents_of(const PathItem& path);
 /// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.
 PixelRect pixels_of(const Rect& extent, const PixelRect& area);
 
-/// The pixels of an area that a moving block or shape reaches into; of no width if nothing moves.
+/// The pixels of an area that moving blocks reach into; of no width if nothing moves.
 PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area);
-PixelRect moving_area(const MovingShapesItem& item, const PixelRect& area);
 
 /// False only if the item has certainly painted nothing into the rectangle.
 bool reaches(const DrawItem& item, const PixelRect& rect);

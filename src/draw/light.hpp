@@ -18,6 +18,12 @@ class Light {
       const double v = double(i) / double(255 * kPerStep);
       table_[i] = v <= 0.04045 ? v / 12.92 : power_2_4((v + 0.055) / 1.055);
     }
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+      units_[i] = static_cast<std::int64_t>(of(double(i) / kUnitsPerStep) * kLightUnit);
+    }
+    for (std::size_t part = 0; part < firsts_.size(); ++part) {
+      firsts_[part] = search(double(part) / kParts);
+    }
   }
 
   double of(double sample) const {
@@ -25,17 +31,32 @@ class Light {
     const auto i = std::min(static_cast<std::size_t>(at), table_.size() - 2);
     return table_[i] + (table_[i + 1] - table_[i]) * (at - double(i));
   }
+  /// The same in whole numbers of 1 / kLightUnit, of the nearest sixteenth of a step.
+  std::int64_t units_of(double sample) const {
+    const double at = std::clamp(sample, 0.0, 255.0) * kUnitsPerStep + 0.5;
+    return units_[static_cast<std::size_t>(at)];
+  }
   /// The nearest sample.
   std::uint8_t sample(double light) const {
-    // The last one that begins, half a step below itself, at less light.
-    std::size_t sample = 0;
-    for (std::size_t step = 128; step > 0; step /= 2) {
-      if (light >= table_[(sample + step) * kPerStep - kPerStep / 2]) sample += step;
-    }
+    const double part = std::clamp(light, 0.0, 1.0) * kParts;
+    std::size_t sample = firsts_[static_cast<std::size_t>(part)];
+    while (sample < 255 && light >= begin_of(sample + 1)) ++sample;
     return static_cast<std::uint8_t>(sample);
   }
 
+  static constexpr double kLightUnit = 1 << 30;
+
  private:
+  /// Samples begin half a step below themselves.
+  double begin_of(std::size_t sample) const { return table_[sample * kPerStep - kPerStep / 2]; }
+  /// The last sample that begins at no more light.
+  std::uint8_t search(double light) const {
+    std::size_t sample = 0;
+    for (std::size_t step = 128; step > 0; step /= 2) {
+      if (light >= begin_of(sample + step)) sample += step;
+    }
+    return static_cast<std::uint8_t>(sample);
+  }
   /// x^2.4 for 0 < x <= 1, by Newton's method for the fifth root of x^2, from above. std::pow()
   /// would round differently on other machines.
   static double power_2_4(double x) {
@@ -49,7 +70,11 @@ class Light {
   }
 
   static constexpr std::size_t kPerStep = 4;
+  static constexpr std::size_t kUnitsPerStep = 16;
+  static constexpr std::size_t kParts = 4096;
   std::array<double, 255 * kPerStep + 1> table_{};
+  std::array<std::int64_t, 255 * kUnitsPerStep + 1> units_{};
+  std::array<std::uint8_t, kParts + 1> firsts_{};  ///< of each part of all light
 };
 
 }  // namespace piblocks

@@ -129,8 +129,8 @@ std::string short_text(const Rational& value) {
     }
   }
   constexpr std::size_t kShort = 7;
-  std::string fraction = value.get_str();
-  if (fraction.size() <= kShort) return fraction;
+  const std::string fraction = Rational(abs(value)).get_str();
+  if (sign.empty() ? fraction.size() <= kShort : fraction.size() < kShort) return sign + fraction;
   if (size.exponent >= -2 && size.exponent < 7) {
     return fixed_text(to_double(value), std::max(0, 2 - static_cast<int>(size.exponent)));
   }

@@ -19,19 +19,18 @@ using Rgb = std::array<double, 3>;
 /// Sums of light in whole numbers do not depend on their order, so that a part of the picture has
 /// the pixels of the whole.
 using LightSum = std::array<std::int64_t, 3>;
-constexpr double kLightUnit = 1 << 30;
 constexpr double kWeightUnit = 1 << 24;
 
 Rgb samples_of(const Color& color) {
   return {double(color.red), double(color.green), double(color.blue)};
 }
 
-/// The part of a pixel that a half-plane covers. Its edge is `inside` beyond the pixel's centre;
-/// its unit normal is (x, y).
-double half_plane(double inside, double x, double y) {
+/// The part of a pixel that a half-plane covers. Its edge is `inside` beyond the pixel's centre,
+/// and at right angles to (x, y), whose length is given.
+double half_plane(double inside, double x, double y, double length) {
   const double most = std::max(std::fabs(x), std::fabs(y));
   const double least = std::min(std::fabs(x), std::fabs(y));
-  const double away = std::fabs(inside);
+  const double away = std::fabs(inside) * length;
   double outside = 0;  // of the smaller part
   if (away <= (most - least) / 2) {
     outside = 0.5 - away / most;
@@ -114,7 +113,7 @@ class MovingDisc {
     const auto covered = [&](double radius) {
       const double inside = radius - distance;
       if (std::fabs(inside) >= kEdge_px || distance == 0) return inside > 0 ? 1.0 : 0.0;
-      return half_plane(inside, x / distance, y / distance);
+      return half_plane(inside, x, y, distance);
     };
     const double outer = opacity_ * covered(outer_);
     const double inner = inner_ < outer_ ? opacity_ * covered(inner_) : outer;
@@ -176,29 +175,42 @@ class MovingBlock {
 struct Mover {
   std::variant<MovingBlock, MovingDisc> shape;
   std::span<const Point> places;
+  Rect extent;  ///< over all places
 
   bool repeats(int y) const {
     return std::visit([&](const auto& any) { return any.repeats(y); }, shape);
   }
 };
 
-/// Some rows of pixels, to which pictures of moments are added.
+struct PixelSum {
+  LightSum edges{};               ///< what edges add to the light, which may be negative
+  LightSum solid{};               ///< light of the runs that begin here, less of those that end
+  std::int64_t solid_weight = 0;  ///< of these runs
+  std::int64_t moment = 0;        ///< the last in which an edge was here
+  Rgb samples{};                  ///< of that moment
+  LightSum light{};               ///< of these
+};
+
+/// Pixels to which pictures of moments are added.
 class MomentSums {
  public:
   MomentSums(const PixelRect& area, const Light& light, const SurfacePixels& pixels,
-             std::span<const Mover> movers)
+             std::span<const Mover* const> movers, std::vector<PixelSum>& memory)
       : area_(area),
         light_(light),
         pixels_(pixels),
         stride_(static_cast<std::size_t>(area.width_px) + 1),
-        sums_(stride_ * static_cast<std::size_t>(area.height_px)) {
-    for (int sample = 0; sample < 256; ++sample) {
-      lights_[static_cast<std::size_t>(sample)] = whole_light(sample);
-    }
+        sums_(memory) {
+    sums_.resize(std::max(sums_.size(), stride_ * static_cast<std::size_t>(area.height_px)));
     for (int y = area.y_px; y < area.bottom_px(); ++y) {
       const auto row = [&](int of) { return std::span(pixels.at(area.x_px, of), stride_ - 1); };
-      repeats_.push_back(y > area.y_px && std::ranges::equal(row(y), row(y - 1)) &&
-                         std::ranges::all_of(movers, [&](const Mover& m) { return m.repeats(y); }));
+      const bool repeats =
+          y > area.y_px &&
+          std::ranges::all_of(movers, [&](const Mover* m) { return m->repeats(y); }) &&
+          std::ranges::equal(row(y), row(y - 1));
+      if (repeats) continue;
+      rows_.push_back(y);
+      std::fill_n(&at(area.x_px, y), stride_, PixelSum{});
     }
   }
 
@@ -212,8 +224,8 @@ class MomentSums {
   template <typename Shape>
   void add(const Shape& shape, const Point& place) {
     const Run rows = cut(shape.rows(place), {area_.y_px, area_.bottom_px()});
-    for (int y = rows.begin; y < rows.end; ++y) {
-      if (repeats_[static_cast<std::size_t>(y - area_.y_px)]) continue;
+    for (const int y : rows_) {
+      if (y < rows.begin || y >= rows.end) continue;
       shape.visit_row(
           place, y, {area_.x_px, area_.right_px()},
           [&](const Run& run, const Rgb& samples) { add_solid(y, run, samples); },
@@ -223,25 +235,17 @@ class MomentSums {
 
   /// Makes each pixel the mean of all moments.
   void finish() {
+    auto next = rows_.begin();
     for (int y = area_.y_px; y < area_.bottom_px(); ++y) {
-      if (repeats_[static_cast<std::size_t>(y - area_.y_px)]) {
-        std::copy_n(pixels_.at(area_.x_px, y - 1), area_.width_px, pixels_.at(area_.x_px, y));
+      if (next != rows_.end() && *next == y) {
+        finish_row(*next++);
       } else {
-        finish_row(y);
+        std::copy_n(pixels_.at(area_.x_px, y - 1), area_.width_px, pixels_.at(area_.x_px, y));
       }
     }
   }
 
  private:
-  struct PixelSum {
-    LightSum edges{};               ///< what edges add to the light, which may be negative
-    LightSum solid{};               ///< light of the runs that begin here, less of those that end
-    std::int64_t solid_weight = 0;  ///< of these runs
-    std::int64_t moment = 0;        ///< the last in which an edge was here
-    Rgb samples{};                  ///< of that moment
-    LightSum light{};               ///< of these
-  };
-
   void finish_row(int y) {
     LightSum solid{};
     std::int64_t covered = 0;
@@ -260,11 +264,8 @@ class MomentSums {
   static Rgb samples_of(std::uint32_t pixel) {
     return {double(pixel >> 16 & 0xFF), double(pixel >> 8 & 0xFF), double(pixel & 0xFF)};
   }
-  LightSum lights_of(std::uint32_t pixel) const {
-    return {lights_[pixel >> 16 & 0xFF], lights_[pixel >> 8 & 0xFF], lights_[pixel & 0xFF]};
-  }
-  std::int64_t whole_light(double sample) const {
-    return static_cast<std::int64_t>(light_.of(sample) * kLightUnit);
+  LightSum lights_of(const Rgb& samples) const {
+    return {light_.units_of(samples[0]), light_.units_of(samples[1]), light_.units_of(samples[2])};
   }
 
   void add_solid(int y, const Run& run, const Rgb& samples) {
@@ -272,10 +273,10 @@ class MomentSums {
     PixelSum& end = at(run.end, y);
     begin.solid_weight += weight_;
     end.solid_weight -= weight_;
+    const LightSum lights = lights_of(samples);
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t light = weight_ * whole_light(samples[i]);
-      begin.solid[i] += light;
-      end.solid[i] -= light;
+      begin.solid[i] += weight_ * lights[i];
+      end.solid[i] -= weight_ * lights[i];
     }
   }
 
@@ -284,26 +285,23 @@ class MomentSums {
   void add_edge(int x, int y, const Over& over) {
     PixelSum& pixel = at(x, y);
     if (pixel.moment < moment_) {
-      const std::uint32_t background = *pixels_.at(x, y);
       pixel.moment = moment_;
-      pixel.samples = samples_of(background);
-      pixel.light = lights_of(background);
+      pixel.samples = samples_of(*pixels_.at(x, y));
+      pixel.light = lights_of(pixel.samples);
     }
     pixel.samples = over(pixel.samples);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t light = whole_light(pixel.samples[i]);
-      pixel.edges[i] += weight_ * (light - pixel.light[i]);
-      pixel.light[i] = light;
-    }
+    const LightSum lights = lights_of(pixel.samples);
+    for (std::size_t i = 0; i < 3; ++i) pixel.edges[i] += weight_ * (lights[i] - pixel.light[i]);
+    pixel.light = lights;
   }
 
   void set_mean(const PixelSum& pixel, const LightSum& solid, std::int64_t covered,
                 std::uint32_t& word) const {
-    const LightSum background = lights_of(word);
+    const LightSum background = lights_of(samples_of(word));
     std::uint32_t mean = word & 0xFF000000U;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t sum = pixel.edges[i] + solid[i] + (weights_ - covered) * background[i];
-      const double light = double(sum) / (double(weights_) * kLightUnit);
+      const double light = double(sum) / (double(weights_) * Light::kLightUnit);
       mean |= std::uint32_t{light_.sample(light)} << (16 - 8 * i);
     }
     word = mean;
@@ -312,50 +310,68 @@ class MomentSums {
   PixelRect area_;
   const Light& light_;
   const SurfacePixels& pixels_;
-  std::array<std::int64_t, 256> lights_{};  // of whole samples
   std::size_t stride_;
-  std::vector<PixelSum> sums_;  // one more a row, where runs may end
-  std::vector<bool> repeats_;   // of each row, whether it is as the one above
-  std::int64_t moment_ = 0;     // from 1 on
-  std::int64_t weight_ = 0;     // of this moment
-  std::int64_t weights_ = 0;    // of all until now
+  std::vector<PixelSum>& sums_;  // one more a row, where runs may end
+  std::vector<int> rows_;        // others are as the one above
+  std::int64_t moment_ = 0;      // from 1 on
+  std::int64_t weight_ = 0;      // of this moment
+  std::int64_t weights_ = 0;     // of all until now
 };
 
-std::vector<Mover> movers_in(const MovingShapesItem& item, const PixelRect& area) {
+std::vector<Mover> movers_in(const MovingShapesItem& item, const Rect& area) {
   std::vector<Mover> movers;
   for (const MovingShape& moving : item.shapes) {
-    const PixelRect pixels = pixels_of(extent_of(moving), area);
-    if (pixels.is_empty()) continue;
+    const Rect extent = extent_of(moving);
+    if (!extent.meets(area)) continue;
     if (const auto* disc = std::get_if<DiscItem>(&moving.shape)) {
-      movers.push_back({MovingDisc(*disc), moving.places.view()});
+      movers.push_back({MovingDisc(*disc), moving.places.view(), extent});
     } else {
-      movers.push_back({MovingBlock(std::get<ExposedBlock>(moving.shape)), moving.places.view()});
+      movers.push_back(
+          {MovingBlock(std::get<ExposedBlock>(moving.shape)), moving.places.view(), extent});
     }
   }
   return movers;
 }
 
+Rect extent_of(std::span<const Mover> movers) {
+  Rect extent = movers.front().extent;
+  for (const Mover& mover : movers) extent = extent | mover.extent;
+  return extent;
+}
+
 }  // namespace
 
-/// In bands of rows, which bounds the memory.
+/// In tiles, which bounds the memory and keeps it in the cache.
 void Painter::paint(cairo_t& cr, const MovingShapesItem& item, const PixelRect& area) {
-  constexpr int kBand_px = 32;
+  constexpr int kTile_px = 64;
   if (!has_pixels_of_picture(cr)) return paint_still(cr, item);
-  const PixelRect moving = moving_area(item, area);
-  const std::vector<Mover> movers = movers_in(item, moving);
+  const std::vector<Mover> movers = movers_in(item, to_rect(area));
   if (movers.empty()) return;
+  const PixelRect moving = piblocks::pixels_of(extent_of(movers), area);
   const SurfacePixels pixels(cr, area);
-  for (int y = moving.y_px; y < moving.bottom_px(); y += kBand_px) {
-    const int height = std::min(kBand_px, moving.bottom_px() - y);
-    MomentSums sums({moving.x_px, y, moving.width_px, height}, light(), pixels, movers);
+  std::vector<PixelSum> memory;
+  std::vector<const Mover*> here;
+  const auto paint_tile = [&](const PixelRect& tile) {
+    here.clear();
+    for (const Mover& mover : movers) {
+      if (mover.extent.meets(to_rect(tile))) here.push_back(&mover);
+    }
+    if (here.empty()) return;
+    MomentSums sums(tile, light(), pixels, here, memory);
     for (std::size_t moment = 0; moment < item.shares.size(); ++moment) {
       check_stop(stop_);
       sums.next_moment(item.shares[moment]);
-      for (const Mover& mover : movers) {
-        std::visit([&](const auto& any) { sums.add(any, mover.places[moment]); }, mover.shape);
+      for (const Mover* mover : here) {
+        std::visit([&](const auto& any) { sums.add(any, mover->places[moment]); }, mover->shape);
       }
     }
     sums.finish();
+  };
+  for (int y = moving.y_px; y < moving.bottom_px(); y += kTile_px) {
+    const int height = std::min(kTile_px, moving.bottom_px() - y);
+    for (int x = moving.x_px; x < moving.right_px(); x += kTile_px) {
+      paint_tile({x, y, std::min(kTile_px, moving.right_px() - x), height});
+    }
   }
 }
 

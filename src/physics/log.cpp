@@ -89,8 +89,8 @@ std::unique_ptr<Log> make_log(const System& system, const std::optional<Rational
 
 std::unique_ptr<Log> make_log_of_valid(const System& system, const std::optional<Rational>& horizon,
                                        const std::stop_token& stop, Engine engine) {
-  if (two_blocks_of(system)) return make_valid_pair_log(system, engine);
   if (horizon) require_not_negative(*horizon);
+  if (two_blocks_of(system)) return make_valid_pair_log(system, engine);
   return make_stepped_log(system, horizon, stop, engine);
 }
 

@@ -313,8 +313,9 @@ System article_system(int digits, int base) { return system_of(article_blocks(di
 
 bool has_short_names(const System& system) {
   const auto& [dimensions, bodies, walls, restitution, wall_restitution] = system;
-  return bodies.size() == 2 && walls.size() == 1 && bodies[0].name == "blue" &&
-         bodies[1].name == "red" && walls[0].name == "wall";
+  return dimensions == 1 && bodies.size() == 2 && walls.size() == 1 && bodies[0].name == "blue" &&
+         bodies[1].name == "red" && bodies[0].mass && bodies[1].mass && walls[0].name == "wall" &&
+         walls[0].normal[0] > 0;
 }
 
 }  // namespace piblocks

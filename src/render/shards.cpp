@@ -79,13 +79,25 @@ std::optional<std::string> setting(const ShardFile& part, std::string_view name)
   return value == kDefault ? std::nullopt : std::optional(value);
 }
 
+[[noreturn]] void throw_invalid(const ShardFile& part, const std::string& name) {
+  throw UsageError(
+      fmt::format("join: '{}' has the invalid {} {}", part.path, name, value_of(part, name)));
+}
+
+Rational rational(const ShardFile& part, const std::string& name) {
+  try {
+    return parse_rational(value_of(part, name));
+  } catch (const UsageError&) {
+    throw_invalid(part, name);
+  }
+}
+
 /// @throws UsageError unless the value is a whole number from 1 to `high`.
 std::int64_t number(const ShardFile& part, const std::string& name, std::int64_t high) {
-  const Rational value = parse_rational(value_of(part, name));
+  const Rational value = rational(part, name);
   if (value.get_den() == 1 && value >= 1 && value <= to_integer(high))
     return value.get_num().get_si();
-  throw UsageError(
-      fmt::format("join: '{}' has the invalid {} {}", part.path, name, to_text(value)));
+  throw_invalid(part, name);
 }
 
 /// "2/3" as render() wrote it.
@@ -212,9 +224,10 @@ JobDescription read_description(const ShardFile& part) {
   JobDescription job;
   job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
   job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));
-  job.format.frame_rate = parse_rational(value_of(part, "view.fps"));
+  job.format.frame_rate = rational(part, "view.fps");
+  if (job.format.frame_rate <= 0) throw_invalid(part, "view.fps");
   job.format.has_alpha = value_of(part, "view.background") == "transparent";
-  if (const auto crf = setting(part, "crf")) job.encoder.crf = to_double(parse_rational(*crf));
+  if (setting(part, "crf")) job.encoder.crf = to_double(rational(part, "crf"));
   job.encoder.preset = setting(part, "preset");
   job.encoder.encoder = setting(part, "encoder");
   job.signature = value_of(part, "output");

@@ -45,21 +45,9 @@ struct Middle {
   double rate;
 };
 
-/// The collisions that are shown, by index; where there is a turn, those near it, since the closed
-/// form has more than can be looked at.
-std::pair<Integer, Integer> candidates(const Log& log, const Span& span) {
-  Integer first = log.count_at(span.from) + 1;
-  Integer last = log.count_at(span.to);
-  if (const std::optional<Rational> turn = turn_of(log)) {
-    const Integer middle = log.count_at(*turn);
-    first = std::max(first, Integer(middle - kTogether));
-    last = std::min(last, Integer(middle + kTogether));
-  }
-  return {first, last};
-}
-
 std::optional<Middle> middle_of_bodies(const Log& log, const Span& span, const Rational& speed) {
-  const auto [first, last] = candidates(log, span);
+  const Integer first = log.count_at(span.from) + 1;
+  const Integer last = log.count_at(span.to);
   if (last <= first) return std::nullopt;
   const Integer steps = std::min(Integer(kTogether), Integer(last - first));
   double shortest = HUGE_VAL;

@@ -62,13 +62,13 @@ std::optional<std::string> endless_note(const Scene& scene) {
   const std::optional<TwoBlocks> pair = two_blocks_of(scene.system);
   const std::optional<Collapse> collapse = pair ? collapse_of(*pair) : std::nullopt;
   if (!collapse) return std::nullopt;
-  const std::string end = collapse->time
-                              ? fmt::format(" until the blocks rest at t = {}", collapse->time->hi)
-                              : std::string(", which never end");
-  return fmt::format(
-      "there are infinitely many collisions{}; the log lists the first {}, and the blocks rest "
-      "from the last of these on",
-      end, readable(collapse->listed));
+  const std::string end =
+      collapse->time
+          ? fmt::format("there are infinitely many collisions until the blocks rest at t = {}",
+                        collapse->time->hi)
+          : std::string("the collisions never end");
+  return fmt::format("{}; the log lists the first {}, and shows the blocks at rest after them", end,
+                     readable(collapse->listed));
 }
 
 std::string listed_collisions(const Log& log, const char* mark) {

@@ -223,7 +223,7 @@ void check_line(const char* key, std::string_view text, SceneProblems& problems)
 }
 
 Rational width_by_mass(const Body& blue, const Body& red) {
-  if (*blue.mass <= 0 || *red.mass <= 0) return red.size;
+  if (blue.mass.value_or(0) <= 0 || red.mass.value_or(0) <= 0) return red.size;
   // Either mass may be beyond the range of a double.
   const auto log_100 = [](const Integer& value) {
     long exponent = 0;
@@ -241,6 +241,10 @@ std::vector<Problem> problems_of(const Scene& scene) {
   SceneProblems problems(problems_of(scene.system));
   problems.require(scene.styles.size() == scene.system.bodies.size(), "body",
                    "must have one style for each body");
+  for (std::size_t i = 0; i < scene.styles.size(); ++i) {
+    const std::string& label = scene.styles[i].label;
+    if (!label.empty()) check_line(fmt::format("body {}.label", i + 1).c_str(), label, problems);
+  }
   check_elastic(scene, problems);
   check_fits(scene, problems);
   check_view(scene.view, problems);

@@ -19,6 +19,35 @@ TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
             (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));
 }
 
+TEST_F(BodiesCli, WhatCannotBePaintedIsRefused) {
+  const auto expect = [&](const std::string& scene, const std::string& message) {
+    write("scene.toml", scene);
+    expect_line({"still", "scene.toml", "--at", "0", "--size", "640x480", "-o", "a.png"}, message);
+    EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+  };
+  expect(
+      "[[body]]\nmass = 'inf'\nradius = 100000\nposition = [0, -100000]\n[[body]]\n"
+      "position = [0, 1.5]\nradius = 0.5\nvelocity = [0, -1]\n"
+      "[view]\nx = [-3, 3]\ny = [-1, 3]\n[time]\nto = 2\n",
+      "body 1.radius: is 8.905e+06 pixels, and at most 3.8e+06 can be painted; make it smaller, "
+      "show more of the plane, or use a wall");
+  const std::string label(90, 'a');
+  expect(
+      "[box]\nx = [0, 12]\n[[body]]\nmass = 16\nwidth = 1.5\nposition = 4\nlabel = '" + label +
+          "'\n[[body]]\nposition = 8\n[time]\nto = 2\n",
+      "body 1.label: '" + label +
+          "' does not fit on its block of 66x66 pixels; use a shorter one, make the block or the "
+          "frame larger, or show less of the x axis");
+  std::string fast = "[box]\nx = [0, 100]\n[time]\nto = '1e-155'\n[show]\npanels = ['speeds']\n";
+  for (int i = 0; i < 20; ++i) {
+    fast += fmt::format("[[body]]\nposition = {}\nvelocity = '{}'\n", 3 * i + 1,
+                        i == 0 ? "1e155" : "0");
+  }
+  expect(fast,
+         "show.panels: 'speeds' needs an energy within the range of a double (about 1.8e308); "
+         "leave the diagram out, or use less extreme velocities");
+}
+
 TEST_F(BodiesCli, WhatIsNotCertainIsRefusedWithItsTime) {
   const Arguments small{"--size", "320x180", "--fps", "10", "--quiet", "-o", "a.mp4"};
   const CommandResult result = piblocks({"count", "uncertain.toml"});

@@ -53,6 +53,7 @@ TEST(ParseRational, LimitsNumeratorAndDenominatorHoweverTheyAreWritten) {
   EXPECT_EQ(parse_rational("2^16383"), power(2, 16383));
   EXPECT_EQ(parse_rational("1/2^16383"), 1 / power(2, 16383));
   EXPECT_NO_THROW(parse_rational("0.9^4932"));
+  EXPECT_EQ(parse_rational("0." + digits.substr(0, 4900)), 1 - 1 / power(10, 4900));
   for (const std::string& text :
        {digits + "99", "0." + digits + "9", digits + ".5e-2", std::string("2^16384"),
         std::string("2^-16384"), std::string("1/2^16384"), std::string("0.9^4933"),

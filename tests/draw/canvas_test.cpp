@@ -197,6 +197,12 @@ TEST(VectorFiles, AreCompleteAndRepeatable) {
   EXPECT_NE(svg.find("width=\"40px\""), std::string::npos) << svg.substr(0, 300);
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
   EXPECT_EQ(svg, as_text(draw_svg(list)));
+  DrawList with_image = list;
+  with_image.items.emplace_back(
+      ImageItem{ItemId::logo,
+                {5, 5, 20, 20},
+                std::make_shared<const Image>(Image{3, 2, std::vector<std::uint32_t>(6)})});
+  EXPECT_EQ(as_text(draw_svg(with_image)), as_text(draw_svg(with_image)));
   const std::string pdf = as_text(draw_pdf(list));
   EXPECT_TRUE(pdf.starts_with("%PDF-"));
   EXPECT_TRUE(pdf.ends_with("%%EOF\n"));

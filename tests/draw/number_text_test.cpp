@@ -41,6 +41,7 @@ TEST(NumberText, ShortIsExactWhereItCanBe) {
   EXPECT_EQ(short_text(-16), "−16");
   EXPECT_EQ(short_text(Rational(5, 2)), "2.5");
   EXPECT_EQ(short_text(Rational(1, 3)), "1/3");
+  EXPECT_EQ(short_text(Rational(-1, 3)), "−1/3");
   EXPECT_EQ(short_text(power(100, 19)), "10³⁸");
   EXPECT_EQ(short_text(1 / power(10, 6)), "10⁻⁶");
   EXPECT_EQ(short_text(Rational(123456789)), "1.23×10⁸");

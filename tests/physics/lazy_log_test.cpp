@@ -72,6 +72,11 @@ TEST(LazyLog, AnswersAreThoseOfALongerRun) {
   EXPECT_GT(unending, many(60));
 }
 
+TEST(LazyLog, BeginsAtTimeZero) {
+  EXPECT_THROW(make_log(article_system(3), Rational(-1)), UsageError);
+  EXPECT_THROW(make_log({1, {{1, {0}}, {1, {2}}, {1, {4}}}}, Rational(-1)), UsageError);
+}
+
 /// Between blocks of 10^14 and 10^40 times its mass a light one bounces some 10^7 times, first at
 /// time 2.
 TEST(LazyLog, DoesNotAskWhatHappensLater) {

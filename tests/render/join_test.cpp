@@ -190,7 +190,10 @@ TEST_F(JoinTest, RefusesNumbersThatMakeNoSense) {
   for (const std::string other : {"0", "-64", "64/3", "99999999999999999999"}) {
     EXPECT_NE(with("view.width: 64", "view.width: " + other), "none");
   }
-  EXPECT_NE(with("view.fps: 24", "view.fps: 0"), "none");
+  for (const std::string other : {"0", "-24", "fast", "1/0"}) {
+    EXPECT_EQ(with("view.fps: 24", "view.fps: " + other),
+              "join: '" + path("changed") + "' has the invalid view.fps " + other);
+  }
   EXPECT_NE(with("frames: 120", "frames: many"), "none");
   EXPECT_NE(with("frames: 120\n", ""), "none");
 }

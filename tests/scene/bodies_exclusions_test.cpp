@@ -117,5 +117,23 @@ TEST_F(BodiesFile, CollisionsWithoutEndNeedATime) {
   EXPECT_EQ(log_of(fifth)->count_at(span_of(fifth, *log_of(fifth)).to), 5);
 }
 
+TEST(Bodies, HaveTheProblemsThatNoFileCanWrite) {
+  Scene scene;
+  scene.styles[0].label = "two\nlines";
+  ASSERT_EQ(problems_of(scene).size(), 1U);
+  EXPECT_EQ(problems_of(scene)[0].key, "body 1.label");
+  // The names alone do not make them blue, red and a wall on their left.
+  System behind = article_system(3);
+  behind.walls[0].normal = {-1};
+  EXPECT_FALSE(problems_of(behind).empty());
+  System discs = article_system(3);
+  discs.dimensions = 2;
+  discs.bodies[1].position = {Rational(16, 5), 0};  // touches blue as a block, overlaps as a disc
+  EXPECT_FALSE(problems_of(discs).empty());
+  System fixed = article_system(3);
+  fixed.bodies[0].mass = std::nullopt;
+  EXPECT_FALSE(has_short_names(fixed));
+}
+
 }  // namespace
 }  // namespace piblocks

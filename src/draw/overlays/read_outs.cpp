@@ -304,7 +304,11 @@ ReadOut fitted(const LayoutContext& context,
 
 /// From which time on the picture may be wrong.
 ReadOut certainty_read_out(const LayoutContext& context, double until) {
-  const std::string text = fmt::format("not certain from t = {:.4g} on", until);
+  // Rounded down.
+  constexpr double kFigures = 1000;
+  const std::string begin = until < kFigures ? fmt::format("{:.4g}", until * (1 - 0.5 / kFigures))
+                                             : fixed_text(std::floor(until), 0);
+  const std::string text = fmt::format("not certain from t = {} on", begin);
   return {"certainty", text,
           [=](const FrameState& shown) {
             return to_double(shown.time) >= until ? text : std::string();

@@ -205,6 +205,11 @@ class ConservationPanel {
     right_ = std::round(inside().right() - (figure + kBesideBars_em) * em);
     has_figures_ = right_ - left_ >= kLeastBars_em * em;
     if (!has_figures_) right_ = std::round(inside().right());
+    if (right_ - left_ < em) {
+      throw UsageError(
+          "show.panels: the diagram 'conservation' has no room for bars beside the bodies' names; "
+          "use shorter labels, or make the frame wider");
+    }
     // The bar of energy ends where the figures do.
     energy_right_ = std::round(inside().right());
   }

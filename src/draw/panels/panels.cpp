@@ -61,7 +61,6 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place,
         "leave out a diagram, or make the frame larger",
         exact_text(panel_), width_px(titles.back()), whole.width));
   }
-  title_px_ = width_px(*title);
   formula(*title, {whole.x, whole.y + kTitleBaseline * text_px_}, 0, palette_.text);
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};

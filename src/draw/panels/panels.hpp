@@ -79,8 +79,6 @@ class Diagram {
   /// What is left below the title.
   const Rect& inside() const noexcept { return inside_; }
   double text_px() const noexcept { return text_px_; }
-  /// Width of the title.
-  double title_px() const noexcept { return title_px_; }
   const Palette& palette() const noexcept { return palette_; }
   const Sizes& sizes() const noexcept { return sizes_; }
   /// Width of lines of data, in widths of the grid's lines.
@@ -158,7 +156,6 @@ class Diagram {
   Panel panel_;
   Sizes sizes_;
   double text_px_;
-  double title_px_ = 0;
   Rect inside_;
   std::vector<DrawItem> items_;
   PlateItem item_;

@@ -24,8 +24,7 @@ class PositionsPanel {
     const std::vector<std::vector<PathPoint>> paths =
         context.log.paths(span.from, span.to, static_cast<std::size_t>(corners));
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      half_widths_.push_back(to_double(system.bodies[i].size) / 2);
-      add_band(paths[i], half_widths_.back(), context.colors[i]);
+      add_band(paths[i], to_double(system.bodies[i].size) / 2, context.colors[i]);
     }
     for (const Wall& wall : system.walls) {
       const double y = y_of(to_double(wall.point[0]));
@@ -95,7 +94,6 @@ class PositionsPanel {
   TimeAxis axis_;
   double low_;
   double high_;
-  std::vector<double> half_widths_;
 };
 
 }  // namespace

@@ -69,14 +69,7 @@ class Maxwell {
   double temperature_;  ///< times Boltzmann's constant
 };
 
-double energy_of(const System& system) {
-  Rational twice = 0;
-  for (const Body& body : system.bodies) {
-    const auto& [x, y] = body.velocity;
-    if (body.mass) twice += *body.mass * (x * x + y * y);
-  }
-  return to_double(twice) / 2;
-}
+double energy_of(const System& system) { return to_double(twice_energy(system)) / 2; }
 
 std::size_t movable(const System& system) {
   return std::size_t(
@@ -126,10 +119,17 @@ class SpeedsPanel {
  private:
   static std::vector<Formula> titles(const DrawingContext& context) {
     const System& system = context.scene.system;
-    if (movable(system) < kLeastBodies || energy_of(system) <= 0) {
-      throw UsageError(fmt::format(
-          "show.panels: 'speeds' needs at least {} bodies of finite mass, and one that moves",
-          kLeastBodies));
+    const double energy = energy_of(system);
+    if (movable(system) < kLeastBodies || energy <= 0) {
+      throw UsageError(
+          fmt::format("show.panels: 'speeds' needs at least {} bodies of finite mass, and one that "
+                      "moves; leave the diagram out",
+                      kLeastBodies));
+    }
+    if (!std::isfinite(energy)) {
+      throw UsageError(
+          "show.panels: 'speeds' needs an energy within the range of a double (about 1.8e308); "
+          "leave the diagram out, or use less extreme velocities");
     }
     const FormulaSetter set = context.setter();
     return {set.text("The speeds approach Maxwell's curve"), set.text("Speeds and Maxwell's curve"),

@@ -188,7 +188,12 @@ class LabelRoom {
 
 void check_room(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
   if (texts.fits(body)) return;
-  if (!texts.can_be_above(body)) throw_no_room(context, texts, body);
+  const double margin = context.sizes.margin;
+  const double right =
+      std::min(context.scene.view.width_px - margin, context.layout.content_right_px);
+  const bool is_too_wide =
+      context.font.width_em(texts.text(body)) * context.sizes.mass > right - margin;
+  if (is_too_wide || !texts.can_be_above(body)) throw_no_room(context, texts, body);
   const double needed = label_room_px(context.sizes);
   if (context.layout.above_px + kRounded_px >= needed) return;
   throw UsageError(fmt::format(

@@ -18,8 +18,10 @@ using PlacedBodies = std::vector<const PlacedBody*>;
 constexpr ItemId kMovingBodies = nth(ItemId::blue_block, 500);
 
 // Moments per mean: the least number, and one more for each pixel of the longest way. The tests
-// hold blocks to 5 steps of 255 beside a mean of 1,000 pictures of instants.
+// hold blocks to 5 steps of 255 beside a mean of 1,000 pictures of instants. Round edges need
+// fewer.
 constexpr double kLeastMoments = 16;
+constexpr double kLeastMomentsOfDiscs = 8;
 constexpr double kMostMoments = 4096;
 // A picture's cost and memory: pixels of edges that are painted in all moments, and places.
 constexpr double kMostEdges_px = 1e8;
@@ -230,7 +232,9 @@ Moments moments_of(const PlacedBodies& moving, const Layout& map, const PixelRec
     most_pieces = std::max(most_pieces, pieces);
   }
   const double most = std::min(kMostEdges_px / edges, kMostPlaces / double(moving.size()));
-  const double count = std::min({kLeastMoments + longest_px, kMostMoments, most});
+  const bool are_discs = std::holds_alternative<DiscItem>(moving.front()->still);
+  const double least = are_discs ? kLeastMomentsOfDiscs : kLeastMoments;
+  const double count = std::min({least + longest_px, kMostMoments, most});
   return moments_for(static_cast<std::size_t>(std::max(count, kFewMoments)),
                      velocity_changes(exposures, moving), most_pieces);
 }

@@ -106,14 +106,13 @@ Layout lay_out_line(const LayoutContext& context, const FramePlan& plan) {
   return layout;
 }
 
-void check_plane(const View& view, double scale) {
-  const double farthest =
-      std::max({std::fabs(to_double(view.x.low)), std::fabs(to_double(view.x.high)),
-                std::fabs(to_double(view.y.low)), std::fabs(to_double(view.y.high))});
-  if (farthest * 0x1p-52 * scale <= kMostStep_px) return;
+void check_radius(double radius_px, std::size_t number) {
+  constexpr double kMost_px = 0.9 * kFar_px;  // with its line, and far from the picture
+  if (radius_px <= kMost_px) return;
   throw UsageError(
-      "view.x: so far from 0 positions cannot be told apart by a pixel; show more of the plane, or "
-      "move the bodies towards 0");
+      fmt::format("body {}.radius: is {:.4g} pixels, and at most {:.2g} can be painted; make it "
+                  "smaller, show more of the plane, or use a wall",
+                  number, radius_px, kMost_px));
 }
 
 Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
@@ -122,8 +121,9 @@ Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
   const System& system = context.scene.system;
   Layout layout;
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
-  layout.window = {std::ceil(area.x), std::ceil(area.y), std::floor(area.width - 1),
-                   std::floor(area.height - 1)};
+  const double left = std::ceil(area.x);
+  const double top = std::ceil(area.y);
+  layout.window = {left, top, std::floor(area.right()) - left, std::floor(area.bottom()) - top};
   const double wall = system.walls.empty() ? 0 : style::kWallWidth * sizes.short_side;
   const double margin = std::max(wall, sizes.margin / 2);
   const double width = layout.window.width - 2 * margin;
@@ -136,7 +136,7 @@ Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
   }
   layout.scale = std::min(width / to_double(view.x.high - view.x.low),
                           height / to_double(view.y.high - view.y.low));
-  check_plane(view, layout.scale);
+  check_resolution(view, layout.scale);
   layout.origin = {
       std::round(layout.window.width / 2 - to_double(view.x.high + view.x.low) / 2 * layout.scale),
       std::round(layout.window.height / 2 +
@@ -144,6 +144,7 @@ Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
   for (const Body& body : system.bodies) {
     const double diameter = 2 * to_double(body.size);
     layout.shapes.push_back({diameter, diameter * layout.scale});
+    check_radius(diameter / 2 * layout.scale, layout.shapes.size());
   }
   return layout;
 }
@@ -169,8 +170,11 @@ Rational twice_energy(const System& system) {
 }
 
 void check_resolution(const View& view, double scale) {
-  const double farthest =
-      std::max(std::abs(to_double(view.x.low)), std::abs(to_double(view.x.high)));
+  double farthest = 0;
+  for (const Range* range : {&view.x, &view.y}) {
+    farthest =
+        std::max({farthest, std::abs(to_double(range->low)), std::abs(to_double(range->high))});
+  }
   const double step_px = farthest * std::numeric_limits<double>::epsilon() * scale;
   if (step_px <= kMostStep_px) return;
   throw UsageError(

@@ -102,13 +102,15 @@ void still_file(const BoundScript& bound, const std::string& at, const std::stri
   });
 }
 
-std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format) {
+std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format,
+                               const std::stop_token& stop) {
   if (format == "svg") return draw_svg(list);
   if (format == "pdf") return draw_pdf(list);
   if (format != "png")
     throw UsageError(fmt::format("format {}: must be png or svg or pdf", format));
   Canvas canvas(list.width_px, list.height_px,
                 list.background ? Background::opaque : Background::transparent);
+  canvas.listen(stop);
   canvas.paint(list);
   return encode_png(canvas.view());
 }
@@ -117,7 +119,7 @@ std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format) 
 py::bytes still_bytes(const BoundScript& bound, const std::string& at, const std::string& format) {
   std::vector<std::uint8_t> bytes;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
-    bytes = draw(still_picture(bound.script, instant_of(at), stop), format);
+    bytes = draw(still_picture(bound.script, instant_of(at), stop), format, stop);
   });
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
