@@ -2,9 +2,11 @@
 #include <piblocks/error.hpp>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,19 +26,26 @@
 namespace piblocks::cli {
 namespace {
 
+constexpr std::array kFormats = {"csv", "jsonl", "npy"};
+
 TableFormat parse_format(const std::string& text) {
-  return parse_choice<TableFormat>(
-      text, {{"csv", TableFormat::csv}, {"jsonl", TableFormat::jsonl}, {"npy", TableFormat::npy}});
+  return parse_choice<TableFormat>(text, {{kFormats[0], TableFormat::csv},
+                                          {kFormats[1], TableFormat::jsonl},
+                                          {kFormats[2], TableFormat::npy}});
 }
 
-/// The format that the ending of a file names; CSV of a file without an ending.
-/// @throws UsageError for another ending.
-std::string format_of_file(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension();
-  if (ending.empty()) return "csv";
-  for (const char* format : {"csv", "jsonl", "npy"}) {
-    if (has_ending(ending, std::string(".") + format)) return format;
+/// The format that the ending of a file names; nothing if it names none.
+std::optional<std::string> ending_of(const std::string& file) {
+  for (const char* format : kFormats) {
+    if (has_ending(file, std::string(".") + format)) return format;
   }
+  return std::nullopt;
+}
+
+/// The same, and CSV of a file without an ending. @throws UsageError for another ending.
+std::string format_of_file(const std::string& file) {
+  if (std::filesystem::path(file).extension().empty()) return kFormats[0];
+  if (auto format = ending_of(file)) return *format;
   throw UsageError(fmt::format(
       "log: '{}' has no known ending; use .csv, .jsonl or .npy, or say the format by --format",
       file));
@@ -51,14 +60,11 @@ std::string format_name(const Command& options) {
     return text;
   });
   if (!named) return format_of_file(file);
-  for (const char* other : {"csv", "jsonl", "npy"}) {
-    if (*named == other || !has_ending(file, std::string(".") + other)) continue;
-    throw UsageError(
-        fmt::format("--format {}: '{}' is a name of {}; leave out --format, or use "
-                    "another name",
-                    *named, file, other));
-  }
-  return *named;
+  const std::optional<std::string> ending = ending_of(file);
+  if (!ending || *ending == *named) return *named;
+  throw UsageError(
+      fmt::format("--format {}: '{}' is a name of {}; leave out --format, or use another name",
+                  *named, file, *ending));
 }
 
 /// Shows how many rows have been written, if that takes more than a second and the rows themselves

@@ -67,8 +67,6 @@ void add_page(Command& app) {
   Command command =
       app.add_command("page", "Write the live page, which runs this program in a browser");
   SceneOptions scene(command);
-  command.add_flag("--live",
-                   "The page that has the program in it: the only kind, so this\nmay be left out");
   command.add_required_value("-o,--output", "OUT", "NAME.html, or - (standard output)");
   scene.add_picture();
   scene.add_show();

@@ -1,4 +1,4 @@
-// page --live: the live page, opened on a scene. The page here is made up,
+// page: the live page, opened on a scene. The page here is made up,
 // beside a copy of the program; that the program in the real one works is checked by tests/web.
 #include <piblocks/version.hpp>
 
@@ -92,7 +92,7 @@ class LivePageTest : public CliFixture {
   }
   /// The page that the program writes, when all is well.
   std::string written(const Arguments& arguments) const {
-    const CommandResult result = run(Arguments{"page", "--live", "-o", "a.html"} + arguments);
+    const CommandResult result = run(Arguments{"page", "-o", "a.html"} + arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out + result.err, "");
     return contents("a.html");
@@ -183,7 +183,6 @@ TEST_F(LivePageTest, NoTextEndsTheElement) {
 }
 
 TEST_F(LivePageTest, GoesToStandardOutput) {
-  // There is no other kind of page: "--live" says nothing new.
   const CommandResult result = run({"page", "--digits", "2", "-o", "-"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
@@ -198,12 +197,12 @@ TEST_F(LivePageTest, RefusesWrongUsage) {
       named.err,
       "piblocks: output: cannot write a page to 'new/a.mp4'; use NAME.html, or - for standard "
       "output\n");
-  expect_failure({"--live", "--digits", "0"}, 2, "piblocks: --digits: ");
-  expect_failure({"--live", "nothing.toml"}, 2, "piblocks: scene: cannot read 'nothing.toml'");
-  expect_failure({"--live", "--digits", "3", "--mass-ratio", "4"}, 2, "both set the mass of red");
-  EXPECT_EQ(run({"page", "--live"}).exit_code, 2);
+  expect_failure({"--digits", "0"}, 2, "piblocks: --digits: ");
+  expect_failure({"nothing.toml"}, 2, "piblocks: scene: cannot read 'nothing.toml'");
+  expect_failure({"--digits", "3", "--mass-ratio", "4"}, 2, "both set the mass of red");
+  EXPECT_EQ(run({"page"}).exit_code, 2);
   write("story.toml", "[[part]]\ncard = \"a\"\nseconds = 1\n[[part]]\nfade = 2\n");
-  expect_failure({"--live", "story.toml"}, 2, "fade");
+  expect_failure({"story.toml"}, 2, "fade");
 }
 
 /// What only the film finds: these refusals are those of `render`, word for word.
@@ -213,55 +212,55 @@ TEST_F(LivePageTest, RefusesTheScenesThatRenderRefuses) {
         Arguments{"--from", "#1000"}, Arguments{"lecture", "--size", "64x36"}}) {
     const CommandResult rendered = piblocks(Arguments{"render", "-o", "a.mp4"} + scene);
     ASSERT_EQ(rendered.exit_code, 2) << scene.front();
-    expect_failure(Arguments{"--live"} + scene, 2, rendered.err);
+    expect_failure(scene, 2, rendered.err);
   }
 }
 
 TEST_F(LivePageTest, RefusesALogo) {
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "logo.png"});
-  expect_failure({"--live", "--logo", "logo.png"}, 2,
+  expect_failure({"--logo", "logo.png"}, 2,
                  "piblocks: show.logo: a page cannot read the file 'logo.png'; leave the logo out");
   write("story.toml", "[[part]]\ndigits = 1\n[[part]]\nshow.logo = \"logo.png\"\n");
-  expect_failure({"--live", "story.toml"}, 2, "show.logo: a page cannot read the file");
+  expect_failure({"story.toml"}, 2, "show.logo: a page cannot read the file");
 }
 
 TEST_F(LivePageTest, RefusesAPageOfAnotherVersion) {
   place("<!DOCTYPE html>\n" + made_by("0.0.1") + kMark + kAfter);
-  expect_failure({"--live"}, 1,
+  expect_failure({}, 1,
                  "share/piblocks/piblocks.html': it is of version 0.0.1, not " +
                      std::string(kVersion) + "; '");
   // A longer number is another version.
   place("<!DOCTYPE html>\n" + made_by(std::string(kVersion) + "1") + kMark + kAfter);
-  expect_failure({"--live"}, 1, "it is of version " + std::string(kVersion) + "1, not ");
+  expect_failure({}, 1, "it is of version " + std::string(kVersion) + "1, not ");
 }
 
 TEST_F(LivePageTest, RefusesAPageWithoutItsMarks) {
   place("<!DOCTYPE html>\n" + kMark + kAfter);
-  expect_failure({"--live"}, 1, "piblocks.html': it has no '<meta name=\"generator\"");
+  expect_failure({}, 1, "piblocks.html': it has no '<meta name=\"generator\"");
   place(kBefore + made_by(kVersion) + kMark + kAfter);
-  expect_failure({"--live"}, 1, "piblocks.html': it has several '<meta name=\"generator\"");
+  expect_failure({}, 1, "piblocks.html': it has several '<meta name=\"generator\"");
   place(kBefore + kAfter);
-  expect_failure({"--live"}, 1, "piblocks.html': it has no '<script id=\"opened-scene\"");
+  expect_failure({}, 1, "piblocks.html': it has no '<script id=\"opened-scene\"");
   place(kPage + kMark);
-  expect_failure({"--live"}, 1, "piblocks.html': it has several '<script id=\"opened-scene\"");
+  expect_failure({}, 1, "piblocks.html': it has several '<script id=\"opened-scene\"");
   place(kBefore + kStart + "nullify" + kEnd + kAfter);
-  expect_failure({"--live"}, 1, "piblocks.html': it opens a scene already");
+  expect_failure({}, 1, "piblocks.html': it opens a scene already");
   place(kBefore + kStart + "{\"text\":\"\"}" + kEnd + kAfter);
-  expect_failure({"--live"}, 1, "piblocks.html': it opens a scene already");
+  expect_failure({}, 1, "piblocks.html': it opens a scene already");
   place("");
-  expect_failure({"--live"}, 1, "piblocks.html': it has no '<meta");
+  expect_failure({}, 1, "piblocks.html': it has no '<meta");
 }
 
 TEST_F(LivePageTest, SaysWhereItLookedForThePage) {
   fs::remove(page_file());
   const std::string beside = fs::canonical(bin()).parent_path() / "share/piblocks/piblocks.html";
-  expect_failure({"--live"}, 1,
+  expect_failure({}, 1,
                  "piblocks: page: cannot read the live page; install one of this version, or build "
                  "it by scripts/web: '" +
                      beside + "': No such file or directory; '" + PIBLOCKS_INSTALLED_PAGE +
                      "': No such file or directory\n");
   fs::create_directory(page_file());
-  expect_failure({"--live"}, 1, "piblocks.html': Is a directory; '");
+  expect_failure({}, 1, "piblocks.html': Is a directory; '");
 }
 
 /// A program that lies where it was built finds what scripts/web has made of the same sources.
@@ -271,11 +270,11 @@ TEST_F(LivePageTest, IsFoundFromTheBuildFolder) {
   }
   fs::remove(page_file());
   place(kPage, tree() / "out" / "piblocks.html");
-  expect_failure({"--live"}, 1, "No such file");
+  expect_failure({}, 1, "No such file");
   std::ofstream(bin() / "CMakeCache.txt") << "";
   EXPECT_EQ(scene_in(written({"--digits", "2"})), "red.mass = 100\n");
   place(kBefore, tree() / "out" / "piblocks.html");
-  expect_failure({"--live"}, 1, "/tree/out/piblocks.html': it has no '<script");
+  expect_failure({}, 1, "/tree/out/piblocks.html': it has no '<script");
 }
 
 TEST_F(LivePageTest, IsNotWrittenOverWhatItIsMadeOf) {
@@ -287,7 +286,7 @@ TEST_F(LivePageTest, IsNotWrittenOverWhatItIsMadeOf) {
                                      {"hard.html", message},
                                      {"soft.html", message},
                                      {"scene.html", "the scene file"}}) {
-    const CommandResult result = run({"page", "--live", "./scene.html", "-o", output});
+    const CommandResult result = run({"page", "./scene.html", "-o", output});
     EXPECT_EQ(result.exit_code, 2) << output;
     EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
   }
@@ -297,7 +296,7 @@ TEST_F(LivePageTest, IsNotWrittenOverWhatItIsMadeOf) {
 
 TEST_F(LivePageTest, AFullDiskLeavesNothing) {
   const CommandResult result = testing_support::run_command(
-      {"page", "--live", "-o", "-"},
+      {"page", "-o", "-"},
       {.folder = folder_.path(), .out_file = "/dev/full", .program = bin() / "piblocks"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("No space left"), std::string::npos) << result.err;

@@ -55,7 +55,7 @@ TEST(ParseRational, LimitsNumeratorAndDenominatorHoweverTheyAreWritten) {
   EXPECT_NO_THROW(parse_rational("0.9^4932"));
   EXPECT_EQ(parse_rational("0." + digits.substr(0, 4900)), 1 - 1 / power(10, 4900));
   for (const std::string& text :
-       {digits + "99", "0." + digits + "9", digits + ".5e-2", std::string("2^16384"),
+       {digits + "99", "0." + digits + "9", digits + ".99e-2", std::string("2^16384"),
         std::string("2^-16384"), std::string("1/2^16384"), std::string("0.9^4933"),
         std::string("0.9^4000/0.71^4000"), std::string("1e4933"), std::string("1e4000/1e-4000")}) {
     EXPECT_THROW(parse_rational(text), UsageError) << text;

@@ -9,54 +9,37 @@ from typing import Any
 
 from . import _piblocks
 
-# Options of the command line that messages name, and what they are called here.
+# Options of the command line that messages name: those that have the same name here, and others.
 _OPTIONS = {
+    name: name.replace("-", "_")
+    for name in (
+        "at base bounds bundle by crf diff digits dir encoder engine first frames jobs "
+        "last limit mass-ratio max-flashes part poster preset restitution smallest"
+    ).split()
+} | {
     "allow-uncertain": "time_allow_uncertain=True",
-    "at": "at",
-    "base": "base",
-    "bounds": "bounds",
-    "bundle": "bundle",
-    "by": "by",
     "caption": "show_caption",
-    "crf": "crf",
-    "diff": "diff",
-    "digits": "digits",
-    "dir": "dir",
     "duration": "time_duration",
     "ease": "time_ease",
-    "encoder": "encoder",
-    "engine": "engine",
-    "first": "first",
     "for": "for_",
     "fps": "view_fps",
-    "frames": "frames",
     "freeze": "time_freeze",
     "from": "time_from",
     "hold-end": "time_hold_end",
     "hold-start": "time_hold_start",
-    "jobs": "jobs",
-    "last": "last",
-    "limit": "limit",
     "logo": "show_logo",
     "loop": "time_loop=True",
     "loupe": "show_loupe",
-    "mass-ratio": "mass_ratio",
-    "max-flashes": "max_flashes",
     "no-hits": "show_hits=False",
     "no-sound": "sound_on=False",
     "opaque": "view_background='opaque'",
     "output": "file",
     "overwrite": "overwrite=True",
     "panels": "show_panels",
-    "part": "part",
-    "poster": "poster",
-    "preset": "preset",
-    "restitution": "restitution",
     "show": "show_overlays",
     "shutter": "view_shutter",
     "size": "view_size",
     "slow-motion": "time_slow_motion",
-    "smallest": "smallest",
     "sound": "sound_on=True",
     "speed": "time_speed",
     "theme": "view_theme",
