@@ -76,7 +76,7 @@ std::optional<Span> span_of_window(const Loupe& loupe, const Log& log) {
 Span shown_part(const LayoutContext& context, const Span& window) {
   if (!has_span(context.scene, context.log)) return window;
   const Span span = span_of(context.scene, context.log);
-  const Span shown{std::max(window.from, span.from), std::min(window.to, span.to)};
+  Span shown{std::max(window.from, span.from), std::min(window.to, span.to)};
   if (shown.from < shown.to) return shown;
   throw UsageError(fmt::format(
       "{}: its window from {} to {} is outside of what is shown, {} to {}; move it "
