@@ -59,7 +59,7 @@ Scalar velocity_change(const Scalar& closing, const Scalar& share) {
 
 /// The place of a pair among all that meet at one instant: pairs of movable bodies come first, then
 /// those with something immovable; each in the order of their numbers. This is the order that
-/// counts pi. It does not depend on the numbers of immovable bodies beside those of movable ones.
+/// counts pi. Renumbering immovable bodies does not change the order of movable ones.
 struct TieRank {
   bool has_immovable = false;
   std::uint32_t first = 0;   ///< the lower number; beside an immovable body the movable one's

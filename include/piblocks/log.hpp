@@ -131,8 +131,8 @@ class Log {
   /// is none.
   virtual std::optional<Integer> first_tie(const Integer& last) const = 0;
   /// The time up to which rounding cannot have changed which bodies collide, or the order in which
-  /// each one meets others. Nothing if that holds up to `time`; without a time, for the whole run,
-  /// until some 10^9 times as long as it takes.
+  /// each one meets others. Nothing if this holds until `time`; without a time, if it holds for
+  /// some 10^9 times the length of the run.
   virtual std::optional<double> certain_until(const std::optional<Rational>& time) const = 0;
   /// Whether that holds at all times, known without a step.
   virtual bool is_always_certain() const noexcept { return false; }

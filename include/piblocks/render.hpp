@@ -163,7 +163,7 @@ class FrameRenderer {
  public:
   /// @throws SceneError if problems_of() the scene or storyboard is not empty.
   /// @throws UsageError if the span, the pacing or the length of the film is impossible, as
-  ///         make_pair_log(), or if a fade is not shorter than its segments; SimulationError,
+  ///         make_log(), or if a fade is not shorter than its segments; SimulationError,
   ///         DrawError
   explicit FrameRenderer(const Script& script);
   ~FrameRenderer();

@@ -89,14 +89,8 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 
 /// Collects values from a file and from options, and remembers where each came from.
 ///
-/// The keys of a scene are "digits" or "mass-ratio", which set red.mass; "base"; "wall.face";
-/// "blocks.restitution" and "wall.restitution", or "restitution", which sets both;
-/// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
-/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
-/// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
-/// "time.slow-motion", "time.ease", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
-/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo", "show.hits",
-/// "show.loupe"; "sound.on"; "golden.frames", "golden.size".
+/// assets/scenes/README.md lists the keys of a scene. "digits" and "mass-ratio" set red.mass,
+/// "restitution" sets "blocks.restitution" and "wall.restitution".
 ///
 /// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
 /// of a scene except those of the whole film, and also "card", "seconds", "compare", "split" and

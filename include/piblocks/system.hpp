@@ -49,8 +49,8 @@ inline bool is_elastic(const System& system) {
   return system.restitution == 1 && system.wall_restitution == 1;
 }
 
-/// Whether the bodies are blue, red and a wall on their left, which scene files, tables and
-/// messages call so.
+/// Whether the system is the usual one: blue, red, and a wall on their left. Scene files, tables
+/// and messages then use these names.
 bool has_short_names(const System& system);
 
 inline constexpr int kMaxDigits = 100'000;

@@ -220,9 +220,10 @@ inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.
 /// @throws UsageError unless they are two blocks beside something immovable; if an engine would
-/// have to store more than kMaxStoredCollisions, or is not
-///         the closed form and collisions are not elastic, or the closed form is asked for a mass
-///         ratio beyond 2^2000 of elastic blocks.
+/// have
+///         to store more than kMaxStoredCollisions, or is not the closed form and collisions are
+///         not elastic; or if the closed form is asked for a mass ratio beyond 2^2000 of elastic
+///         blocks.
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
 std::unique_ptr<PairLog> make_pair_log(const System& system, Engine engine = Engine::unfolded);
 std::unique_ptr<PairLog> make_pair_log(const TwoBlocks& system, Engine engine = Engine::unfolded);
@@ -231,8 +232,7 @@ std::unique_ptr<PairLog> make_pair_log(const TwoBlocks& system, Engine engine = 
 /// ratio, without a log.
 /// @param horizon  as make_log()
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws UsageError if they are infinitely many: collapse_of(); or as
-///         Log::last().
+/// @throws UsageError if they are infinitely many: collapse_of(); or as Log::last().
 Integer count_collisions(const System& system, const std::optional<Rational>& horizon = {});
 Integer count_collisions(const TwoBlocks& system);
 

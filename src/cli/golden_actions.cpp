@@ -21,8 +21,6 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// For frames of which only the hash is kept. Other pictures begin with the scene's name and '-'.
-
 int exit_code_of(const GoldenFindings& findings) {
   return kExitCodes.at(static_cast<std::size_t>(findings.worst()));
 }

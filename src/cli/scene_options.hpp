@@ -77,8 +77,8 @@ void add_engine(Command& command);
 void note_convention(const Script& script);
 /// Says that a picture without motion blur is asked for with it.
 void note_sharp(const Script& script);
-/// Says on standard error that the order of pairs decided what happened up to this collision, if it
-/// did.
+/// Prints a note on standard error if the order of pairs decided what happened up to this
+/// collision.
 void note_ties(const Log& log, const Integer& last);
 
 }  // namespace piblocks::cli

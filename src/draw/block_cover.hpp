@@ -21,7 +21,7 @@ struct Cover {
   bool operator==(const Cover&) const = default;
 };
 
-/// In one way for a share of the time.
+/// A cover, and the share of the exposure for which it holds.
 struct CoverShare {
   Cover cover;
   double share = 0;

@@ -60,7 +60,7 @@ struct FrameState {
   /// Where each body has been lately, in the order of time; filled in if FrameNeeds asks for it.
   std::vector<std::vector<PathPoint>> trails = {};
 
-  // Left alone in a still that is not in its video, or if no drawable reads them.
+  // Not filled in for a still outside of its video, or if no drawable reads them.
   double video_s = 0;          ///< of the frame, since its scene began
   std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHitsPerSecond
   double hits_per_s = 0;       ///< of video, lately; 0 while the picture stands still

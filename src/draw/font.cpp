@@ -160,9 +160,9 @@ constexpr std::size_t kMostKept = 64;
 struct Font::Loaded {
   explicit Loaded(Face which) : ft_face(load_embedded_face(which)) {}
 
-  /// Cairo keeps the font at the size that was used last in any thread. When another thread takes
-  /// its place, that thread lets go of it, and asserts that nobody uses it: wrongly, if nobody else
-  /// held it and its own thread asks for it again just then. Those used last are kept.
+  /// Cairo keeps the font at the size that was used last in any thread. A thread that replaces it
+  /// asserts that nobody uses it, which fails if the first thread asks for it at that moment. So
+  /// each thread holds the fonts that it used last.
   void keep(cairo_scaled_font_t* sized) {
     const auto found = std::ranges::find(kept, sized, &CairoScaledFontPtr::get);
     if (found != kept.end()) {

@@ -36,7 +36,7 @@ constexpr double kLeastBesideLabel = 0.6;
 /// The counter's part of a row's width, at most.
 constexpr double kMostCounter = 0.6;
 constexpr double kRowCounter = 0.35;
-/// Height of the stage where there are diagrams: without overlays, and at most.
+/// Greatest height of a stage without overlays, where there are diagrams.
 constexpr double kPlainStage = 0.24;
 /// Part of the frame's longer side that discs have where there are diagrams.
 constexpr double kPlaneStage = 0.56;

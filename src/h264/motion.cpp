@@ -57,7 +57,7 @@ int sum_of_differences(const Samples& source, const Picture& before, int x_px, i
 /// The nearest of some vectors.
 class Nearest {
  public:
-  /// @param near  nothing is found that is not below it
+  /// @param near  only sums below it are found
   Nearest(const Samples& source, const Picture& before, int x_mb, int y_mb, int near)
       : source_(source),
         before_(before),
@@ -84,7 +84,7 @@ class Nearest {
   const Picture& before_;
   int x_mb_;
   int y_mb_;
-  int near_enough_;  // with less the search ends
+  int near_enough_;  // a sum below it ends the search
   int least_;
   std::optional<MotionVector> vector_;
 };

@@ -42,8 +42,8 @@ struct UniformPiece {
   const Travel& of(BlockName block) const { return block == BlockName::blue ? blue : red; }
 };
 
-/// Collisions in an interval from which on the closed form sums its pieces up instead of listing
-/// them. The exact event list never has as many.
+/// The closed form sums up an interval with more collisions instead of listing its pieces. The
+/// exact event list never has so many.
 inline constexpr std::size_t kMaxListedCollisions = 512;
 
 /// An interval of time. In one of no length the blocks are where they are at that instant.
@@ -71,7 +71,7 @@ struct BodyPiece {
   std::array<double, 2> to = {};
 };
 
-/// Two bodies that move as the blocks of an Exposure do, beside others that stay.
+/// Two bodies that move as the blocks of a PairExposure do, beside others that stay.
 struct ClosedExposure {
   PairExposure blocks;
   std::size_t blue = 0;  ///< the body that moves as blue does

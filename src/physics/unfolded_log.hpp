@@ -27,7 +27,6 @@ class UnfoldedLog final : public PairLog {
   Gaps gaps_at(const Rational& time) const override;
   Gaps gaps_at_collision(const Integer& index) const override;
 
-  /// As the functions of these names in impact.hpp.
   std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const override;
   Integer count_near(const Time& time) const override;

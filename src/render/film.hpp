@@ -119,7 +119,7 @@ struct PlacedSegment {
 /// Const members are thread-safe.
 class Film {
  public:
-  /// @throws SceneError if problems_of() what it is made from is not empty; UsageError if a fade is
+  /// @throws SceneError if problems_of() the script is not empty; UsageError if a fade is
   ///         not shorter than its segments, or as FilmSegment; SimulationError, DrawError,
   ///         Interrupted
   explicit Film(const Script& script, const FilmMaking& making = {});
@@ -150,7 +150,7 @@ class Film {
 /// @throws UsageError if the film has no such frame.
 std::int64_t frame_at(const Film& film, const Instant& instant);
 
-/// Of a film with so many frames: as long as these, to the nearest sample.
+/// Of a soundtrack that is as long as so many frames, to the nearest sample.
 inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_rate) {
   const Rational size = Rational(to_integer(frame_count)) / frame_rate * Soundtrack::kRate_hz;
   return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};

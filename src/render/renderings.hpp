@@ -45,7 +45,7 @@ bool is_page(const std::string& output);
 
 /// Renders the job's video as MP4, to the bytes that an output `*.mp4` would have, and the page
 /// that holds it.
-/// @throws UsageError if a part is asked for or nothing is behind the blocks; as render()
+/// @throws UsageError if a part is asked for, or the background is transparent; as render()
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 

@@ -61,7 +61,7 @@ class BodyDraft {
   std::vector<std::size_t> slanted_lines_;
 };
 
-/// The 3 of "body 3.mass" after "body "; 0 if the text does not begin so.
+/// The number that follows `beginning`: the 3 of "body 3.mass" after "body "; else 0.
 std::size_t number_in(std::string_view text, std::string_view beginning);
 
 /// The least range of both axes that shows the box, or the bodies at time 0, with a margin.

@@ -37,8 +37,8 @@ class ReadOutRows {
   double lone_slow_motion_px() const noexcept { return lone_px_; }
   /// Moves all rows down, or the lone label to its place.
   void move(double y, const Point& slow_motion);
-  /// Fades the label of slow motion out as the loupe, which has the same label, fades in. @param
-  /// opacity  of the loupe, 0 … 1
+  /// Fades the label of slow motion out as the loupe, which has the same label, fades in.
+  /// @param opacity  of the loupe, 0 … 1
   void leave_slow_motion_to(std::function<double(const FrameState&)> opacity) {
     loupe_opacity_ = std::move(opacity);
   }

@@ -22,7 +22,7 @@ struct CountPoint {
 /// Where a column has more than two, a straight line from count to count at the column's ends.
 /// Collisions at the very beginning are a step at share 0.
 /// @param columns  >= 1
-/// @throws SimulationError as PairLog::state_at().
+/// @throws SimulationError as Log::state_at().
 std::vector<CountPoint> count_curve(const Log& log, const Span& span, int columns);
 
 /// A round factor, 1, 2 or 5 times a power of ten.

@@ -18,7 +18,7 @@ constexpr double kWidest = 4;
 constexpr int kMostMirrors = 128;
 /// Mirrors are looked for up to this distance and time.
 constexpr double kFarthest = 1e300;
-/// More would be seen.
+/// A larger error of rounding would be seen.
 constexpr double kMostRounding_px = 1.0 / 64;
 /// Of the times of collisions, in parts of the time: they are pairs of doubles.
 constexpr double kTimeRounding = 0x1p-102;

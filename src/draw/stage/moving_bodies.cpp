@@ -50,7 +50,7 @@ double way_of(Exposures exposures, std::size_t body, const Layout& map) {
   return way * map.scale;
 }
 
-/// Of the edges of a body, where each pixel is computed by itself.
+/// How many pixels the edges of a body have. Each is computed by itself.
 double edges_px(const Still& body, const PixelRect& frame) {
   constexpr double kFade_px = 3;  // on both sides of the line
   const double most = 2.0 * (frame.width_px + frame.height_px);
@@ -138,7 +138,7 @@ void add_still(const PlacedBody& placed, std::vector<DrawItem>& items) {
   }
 }
 
-/// From the upper left corner of a block to its centre below; a disc is at its centre.
+/// From a block's upper left corner to the middle of its lower edge; nothing for a disc.
 Point corner_of(const Still& body) {
   if (std::holds_alternative<DiscItem>(body)) return {};
   const Rect& bounds = std::get<ExposedBlock>(body).bounds;

@@ -91,7 +91,7 @@ class PngFile {
   }
 
   bool is_deep() const { return png_get_bit_depth(structs_.png, structs_.info) == 16; }
-  /// Of one frame, it is animated if the picture that other programs show is another one.
+  /// A file with one frame counts as animated if other programs show another picture.
   bool is_animated() const {
     png_unknown_chunkp chunks = nullptr;
     const int count = png_get_unknown_chunks(structs_.png, structs_.info, &chunks);
