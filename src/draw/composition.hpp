@@ -3,6 +3,7 @@
 #pragma once
 
 #include <piblocks/scene.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "draw/scene_bodies.hpp"
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 
@@ -42,16 +43,9 @@ struct Hit {
   Gaps gaps = {};
 };
 
-/// All bodies at the instant of a frame.
-struct ShownState : State {
-  ShownState() = default;
-  ShownState(State state) : State(std::move(state)) {}
-  ShownState(PairState state) : State(bodies_state(std::move(state))) {}
-};
-
 /// What a frame is drawn from. It depends on nothing but the frame.
 struct FrameState {
-  ShownState state;
+  State state;
   Rational time = 0;      ///< simulation time of the state
   Rational slowdown = 1;  ///< as in Stretch
   /// Where the bodies are while the frame is exposed; if empty, at the instant.

@@ -3,7 +3,6 @@
 // pixels, samples, files.
 #include <emscripten/emscripten.h>
 #include <fmt/format.h>
-#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/script.hpp>
@@ -17,6 +16,8 @@
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"
+#include "draw/canvas.hpp"
+#include "render/renderings.hpp"
 #include "web/facts.hpp"
 #include "web/live.hpp"
 
@@ -124,10 +125,7 @@ std::vector<std::uint8_t> encoded(const std::string& name) {
   const DrawList list = opened().picture(place);
   if (has_ending(name, ".svg")) return draw_svg(list);
   if (has_ending(name, ".pdf")) return draw_pdf(list);
-  Canvas canvas(list.width_px, list.height_px,
-                list.background ? Background::opaque : Background::transparent);
-  canvas.paint(list);
-  return encode_png(canvas.view());
+  return draw_png(list, {});
 }
 
 /// Tells the page how far a rendering has come.

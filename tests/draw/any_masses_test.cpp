@@ -22,7 +22,7 @@ struct Pictures {
       : log(make_pair_log(scene.system)), composition(scene, *log) {}
 
   DrawList at(const Rational& time) const {
-    return composition.frame({log->blocks_at(time), time});
+    return composition.frame({log->state_at(time), time});
   }
 
   std::unique_ptr<PairLog> log;

@@ -205,7 +205,7 @@ class Arrangements : public testing::Test {
       ++drawn_;
       const Rational end = span_of(scene, *log).to;
       for (const Rational& time : {Rational(0), Rational(33, 10), Rational(7, 2), end}) {
-        const DrawList list = composition.frame({.state = log->blocks_at(time),
+        const DrawList list = composition.frame({.state = log->state_at(time),
                                                  .time = time,
                                                  .slowdown = one.is_slowed && time != 0 ? 1000 : 1,
                                                  .gaps = log->gaps_at(time)});

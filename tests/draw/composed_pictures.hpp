@@ -34,7 +34,7 @@ struct Pictures {
       : log(make_pair_log(scene.system)), composition(scene, *log) {}
 
   DrawList at(const Rational& time, const Rational& slowdown = 1) const {
-    return composition.frame({.state = log->blocks_at(time),
+    return composition.frame({.state = log->state_at(time),
                               .time = time,
                               .slowdown = slowdown,
                               .gaps = log->gaps_at(time)});

@@ -75,7 +75,7 @@ TEST(Composition, CounterKeepsItsPlaceInEveryBase) {
   for (const char* base : {"2", "11", "16", "36"}) {
     const Pictures pictures(scene_with(3, {{"base", base}}));
     const auto origin_at = [&](const Integer& count) {
-      const DrawList list = pictures.composition.frame({state_after(*pictures.log, count)});
+      const DrawList list = pictures.composition.frame({bodies_after(*pictures.log, count)});
       for (const DrawItem& item : list.items) {
         const auto* text = std::get_if<TextItem>(&item);
         if (text != nullptr && text->id == ItemId::count)

@@ -138,7 +138,7 @@ struct Figure {
   explicit Figure(const Settings& settings, const Rational& time = 0) {
     const Scene scene = scene_of(settings);
     const auto log = make_pair_log(scene.system);
-    const DrawList list = Composition(scene, *log).frame({log->blocks_at(time), time});
+    const DrawList list = Composition(scene, *log).frame({log->state_at(time), time});
     for (const DrawItem& item : list.items) {
       const auto* plate = std::get_if<PlateItem>(&item);
       if (plate == nullptr || plate->id < ItemId::panels) continue;

@@ -39,7 +39,7 @@ struct Pictures {
   }
   DrawList at(const Rational& time) const {
     return composition.frame(
-        {.state = log->blocks_at(time), .time = time, .gaps = log->gaps_at(time)});
+        {.state = log->state_at(time), .time = time, .gaps = log->gaps_at(time)});
   }
 
   Scene scene;
@@ -357,7 +357,7 @@ TEST(ConservationPanel, SumsAreConstant) {
     };
     for (Integer k = 1; k <= pictures.log->last(); k += 1) {
       const PairState state = state_after(*pictures.log, k);
-      const std::vector<RectangleItem> bars = Shown(pictures.composition.frame({state})).bars;
+      const std::vector<RectangleItem> bars = Shown(pictures.composition.frame({bodies_state(state)})).bars;
       ASSERT_EQ(bars.size(), 4U);
       EXPECT_NEAR(momentum(bars[1]), state.red.velocity, 1e-9);
       EXPECT_NEAR(momentum(bars[2]), state.blue.velocity / mass, 1e-9);
@@ -371,7 +371,7 @@ TEST(ConservationPanel, EnergyIsShared) {
   const double whole = Shown(pictures.at(0)).bars.front().bounds.width;
   for (Integer k = 1; k <= pictures.log->last(); k += 1) {
     const PairState state = state_after(*pictures.log, k);
-    const Shown shown(pictures.composition.frame({state}));
+    const Shown shown(pictures.composition.frame({bodies_state(state)}));
     EXPECT_NEAR(shown.bars.front().bounds.width / whole, state.red.velocity * state.red.velocity,
                 1e-9);
   }

@@ -29,9 +29,9 @@ class Labels {
         composition_(scene_, *log_) {}
 
   DrawList at(const Rational& time) const {
-    return composition_.frame({log_->blocks_at(time), time});
+    return composition_.frame({log_->state_at(time), time});
   }
-  DrawList after(int count) const { return composition_.frame({state_after(*log_, count)}); }
+  DrawList after(int count) const { return composition_.frame({bodies_after(*log_, count)}); }
 
  private:
   static Scene scene_with(int digits, const Settings& settings) {
@@ -189,7 +189,7 @@ TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
     scene.view.x = view;
     const auto log = make_pair_log(scene.system);
     const std::vector<TextItem> figures =
-        texts_of(Composition(scene, *log).frame({log->blocks_at(0)}), ItemId::velocities);
+        texts_of(Composition(scene, *log).frame({log->state_at(0)}), ItemId::velocities);
     EXPECT_EQ(figures.size(), count) << red_position;
     for (const TextItem& figure : figures) {
       EXPECT_GE(figure.origin.x, 0) << red_position;

@@ -96,4 +96,19 @@ inline std::optional<SeenLoupe> loupe_in(const DrawList& frame) {
   return seen;
 }
 
+// Of the loupe's tests.
+inline Settings lecture(int digits, const char* size = "1280x720") {
+  return {{"digits", std::to_string(digits)}, {"view.theme", "lecture"}, {"view.size", size}};
+}
+
+inline Settings operator+(Settings settings, const Settings& more) {
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
+inline double pixels_per_unit(const DrawList& frame, const Scene& scene) {
+  const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front();
+  return blue.bounds.width / to_double(scene.system.bodies[0].size);
+}
+
 }  // namespace piblocks

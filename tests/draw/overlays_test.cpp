@@ -16,7 +16,7 @@ constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,t
 TEST(Overlays, DigitsLightUpInTheirPlaces) {
   const Pictures pictures(scene_with(5, {{"show.overlays", "digits"}}));
   const auto lit_after = [&](const char* count) {
-    const DrawList list = pictures.composition.frame({state_after(*pictures.log, Integer(count))});
+    const DrawList list = pictures.composition.frame({bodies_after(*pictures.log, Integer(count))});
     return text_of(list, ItemId::lit_count) + "|" + text_of(list, ItemId::count);
   };
   EXPECT_EQ(lit_after("3141"), "|3,141");
@@ -30,7 +30,7 @@ TEST(Overlays, DigitsLightUpInTheirPlaces) {
 TEST(Overlays, DigitsLightUpInTheirBase) {
   const auto lit_after = [](const char* base, int digits, int count) {
     const Pictures pictures(scene_with(digits, {{"base", base}, {"show.overlays", "digits"}}));
-    const DrawList list = pictures.composition.frame({state_after(*pictures.log, count)});
+    const DrawList list = pictures.composition.frame({bodies_after(*pictures.log, count)});
     return text_of(list, ItemId::lit_count) + "|" + text_of(list, ItemId::count);
   };
   EXPECT_EQ(lit_after("2", 5, 31), "|11111");
@@ -53,7 +53,7 @@ TEST(Overlays, ReadOutsSayWhatIs) {
   EXPECT_FALSE(has_text(start, "10× slower"));
   EXPECT_TRUE(has_text(pictures.at(Rational(7, 2), 10), "10× slower"));
   // The first collision, of masses 1 and 100: blue leaves with 200/101, red with -99/101.
-  const DrawList first = pictures.composition.frame({state_after(*pictures.log, 1)});
+  const DrawList first = pictures.composition.frame({bodies_after(*pictures.log, 1)});
   EXPECT_TRUE(has_text(first, "Momentum: red −98.020, blue −1.980, sum −100.000"));
   EXPECT_TRUE(has_text(first, "−1.98"));
 }

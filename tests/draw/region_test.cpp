@@ -75,7 +75,7 @@ double area(std::span<const PixelRect> rects) {
 }
 
 DrawList frame(const Composition& composition, const PairLog& log, const Rational& time) {
-  return composition.frame({.state = log.blocks_at(time), .time = time, .gaps = log.gaps_at(time)});
+  return composition.frame({.state = log.state_at(time), .time = time, .gaps = log.gaps_at(time)});
 }
 
 void expect_exact_updates(Background background) {

@@ -113,7 +113,7 @@ std::string problem_with(const Feature& feature, int width_px, int height_px, bo
   try {
     const Composition composition(scene, *log, scene.show.logo.empty() ? nullptr : logo);
     const Rational time(7, 2);
-    const DrawList list = composition.frame({log->blocks_at(time), time, 10});
+    const DrawList list = composition.frame({log->state_at(time), time, 10});
     Checker checker(list);
     checker.check(list.items);
     is_drawn = true;

@@ -41,7 +41,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count) {
   return lay_out_article(Drawing(scene).context, longest_count, whole);
 }
 
-DrawList compose(const Scene& scene, const PairState& state) {
+DrawList compose(const Scene& scene, const State& state) {
   return Composition(scene, *make_pair_log(scene.system)).frame({state});
 }
 
@@ -50,10 +50,10 @@ double right(const Rect& r) { return r.right(); }
 TEST(Stage, BlocksTouchWhereTheyCollide) {
   const Scene scene = scene_of(3, 1920, 1080);
   const auto log = make_pair_log(scene.system);
-  const DrawList blocks = compose(scene, state_after(*log, 1));
+  const DrawList blocks = compose(scene, bodies_after(*log, 1));
   EXPECT_NEAR(right(rectangle(blocks, ItemId::blue_block).bounds),
               rectangle(blocks, ItemId::red_block).bounds.x, 1e-9);
-  const DrawList wall = compose(scene, state_after(*log, 2));
+  const DrawList wall = compose(scene, bodies_after(*log, 2));
   EXPECT_NEAR(right(rectangle(wall, ItemId::wall).bounds),
               rectangle(wall, ItemId::blue_block).bounds.x, 1e-9);
 }
@@ -65,7 +65,7 @@ TEST(Stage, BlocksStandOnOneBase) {
     scene.system.bodies[1].size = parse_rational(width);
     scene.show.overlays = {Overlay::masses};
     const auto log = make_pair_log(scene.system);
-    const DrawList list = compose(scene, state_after(*log, 3));
+    const DrawList list = compose(scene, bodies_after(*log, 3));
     const Rect red = rectangle(list, ItemId::red_block).bounds;
     const Rect blue = rectangle(list, ItemId::blue_block).bounds;
     EXPECT_NEAR(red.bottom(), blue.bottom(), 1e-9) << width;
@@ -89,7 +89,7 @@ TEST(Stage, TheHatchStaysBehindTheFaceOfTheWall) {
     for (const Theme theme : {Theme::lecture, Theme::lecture_light, Theme::print}) {
       Scene scene = scene_of(2, width, height);
       scene.view.theme = theme;
-      const DrawList list = compose(scene, make_pair_log(scene.system)->blocks_at(0));
+      const DrawList list = compose(scene, make_pair_log(scene.system)->state_at(0));
       const std::vector<DrawItem>& wall = std::get<PlateItem>(list.items.front()).plate->items;
       const Rect face = std::get<RectangleItem>(wall.back()).bounds;
       ASSERT_GT(wall.size(), 5U);
@@ -113,7 +113,7 @@ TEST(Stage, LinesOfBlocksDoNotDependOnWhatIsBesideThem) {
     full.show.panels = {Panel::time, Panel::velocity};
     const auto line_px = [](const Scene& scene) {
       const auto log = make_pair_log(scene.system);
-      return rectangle(compose(scene, log->blocks_at(0)), ItemId::blue_block).stroke->width_px;
+      return rectangle(compose(scene, log->state_at(0)), ItemId::blue_block).stroke->width_px;
     };
     EXPECT_EQ(line_px(plain), line_px(full)) << width << 'x' << height;
   }
@@ -122,9 +122,9 @@ TEST(Stage, LinesOfBlocksDoNotDependOnWhatIsBesideThem) {
 TEST(Stage, CounterShowsTheExactCountWithSeparators) {
   const Scene scene = scene_of(5, 1280, 720);
   const auto log = make_pair_log(scene.system);
-  EXPECT_EQ(text(compose(scene, log->blocks_at(0)), ItemId::count).text, "0");
-  EXPECT_EQ(text(compose(scene, state_after(*log, 1234)), ItemId::count).text, "1,234");
-  EXPECT_EQ(text(compose(scene, log->blocks_at(1000)), ItemId::count).text, "31,415");
+  EXPECT_EQ(text(compose(scene, log->state_at(0)), ItemId::count).text, "0");
+  EXPECT_EQ(text(compose(scene, bodies_after(*log, 1234)), ItemId::count).text, "1,234");
+  EXPECT_EQ(text(compose(scene, log->state_at(1000)), ItemId::count).text, "31,415");
 }
 
 TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
@@ -142,7 +142,7 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
                                         {2, 2}}) {
       const Scene scene = scene_of(digits, width, height);
       const auto log = make_pair_log(scene.system);
-      const DrawList list = compose(scene, state_after(*log, log->last()));
+      const DrawList list = compose(scene, bodies_after(*log, log->last()));
       const Rect wall = rectangle(list, ItemId::wall).bounds;
       const TextItem& label = text(list, ItemId::label);
       const TextItem& count = text(list, ItemId::count);
@@ -162,8 +162,8 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
 TEST(Stage, NothingMovesButTheBlocksAndTheCount) {
   const Scene scene = scene_of(6, 1920, 1080);
   const auto log = make_pair_log(scene.system);
-  const DrawList start = compose(scene, log->blocks_at(0));
-  const DrawList later = compose(scene, log->blocks_at(4));
+  const DrawList start = compose(scene, log->state_at(0));
+  const DrawList later = compose(scene, log->state_at(4));
   EXPECT_EQ(rectangle(start, ItemId::wall), rectangle(later, ItemId::wall));
   EXPECT_EQ(text(start, ItemId::label), text(later, ItemId::label));
   EXPECT_EQ(text(start, ItemId::count).origin, text(later, ItemId::count).origin);
@@ -181,7 +181,7 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
       scene.time.from = parse_instant(from);
       scene.time.to = parse_instant("1");
       const auto log = make_pair_log(scene.system);
-      const DrawList list = compose(scene, log->blocks_at(-20));
+      const DrawList list = compose(scene, log->state_at(-20));
       const TextItem& count = text(list, ItemId::count);
       const TextItem& label = text(list, ItemId::label);
       const double end = count.origin.x + font.width_em(count.text) * count.size_px;
@@ -190,7 +190,7 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
       EXPECT_GT(count.origin.x, label.origin.x + font.width_em(label.text) * label.size_px);
       EXPECT_NEAR(label.origin.x, 640 - end, 1e-6) << "in the middle";
       if (from == std::string_view("0")) continue;
-      EXPECT_EQ(text(compose(scene, log->blocks_at(0)), ItemId::label), label)
+      EXPECT_EQ(text(compose(scene, log->state_at(0)), ItemId::label), label)
           << "nothing moves during the film";
     }
   }
@@ -216,7 +216,7 @@ TEST(Stage, EdgesThatDoNotMoveAreSharp) {
        {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {854, 480}}) {
     const Scene scene = scene_of(3, width, height);
     const auto log = make_pair_log(scene.system);
-    const DrawList list = compose(scene, log->blocks_at(4));
+    const DrawList list = compose(scene, log->state_at(4));
     const Rect wall = rectangle(list, ItemId::wall).bounds;
     const Rect blue = rectangle(list, ItemId::blue_block).bounds;
     EXPECT_TRUE(is_whole(wall.x) && is_whole(wall.y) && is_whole(right(wall)));
@@ -231,7 +231,7 @@ TEST(Stage, FollowsTheScenesGeometry) {
   scene.system.bodies[1].size = 2;
   const auto log = make_pair_log(scene.system);
   const Layout layout = lay_out(scene, log->last());
-  const DrawList list = compose(scene, log->blocks_at(0));
+  const DrawList list = compose(scene, log->state_at(0));
   const Rect wall = rectangle(list, ItemId::wall).bounds;
   const Rect blue = rectangle(list, ItemId::blue_block).bounds;
   const Rect red = rectangle(list, ItemId::red_block).bounds;

@@ -8,29 +8,11 @@
 #include <vector>
 
 #include "draw/composed_pictures.hpp"
+#include "draw/turned_round.hpp"
 #include "render/renderings.hpp"
 
 namespace piblocks {
 namespace {
-
-/// Two blocks beside a wall, written as [[body]].
-Scene as_bodies(Scene scene) {
-  for (Body& body : scene.system.bodies) body.name.clear();
-  return scene;
-}
-
-/// The same, turned round in its frame.
-Scene turned_round(const Scene& scene) {
-  Scene turned = as_bodies(scene);
-  System& system = turned.system;
-  for (Body& body : system.bodies) {
-    body.position[0] *= -1;
-    body.velocity[0] *= -1;
-  }
-  system.walls[0] = {"right", {-system.walls[0].point[0]}, {-1}};
-  turned.view.x = {-scene.view.x.high, -scene.view.x.low};
-  return turned;
-}
 
 std::vector<DrawItem> diagrams_of(const DrawList& list) {
   std::vector<DrawItem> items;

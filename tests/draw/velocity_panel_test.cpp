@@ -39,7 +39,7 @@ struct Pictures {
   }
 
   DrawList of(const PairState& state, double video_s) const {
-    FrameState shown{state};
+    FrameState shown{bodies_state(state)};
     shown.video_s = video_s;
     return composition.frame(shown);
   }

@@ -182,7 +182,7 @@ TEST(Compare, RefusesImagesOfDifferentDepths) {
   EXPECT_THROW(compare(deep(1023, {0}), deep(65535, {0})), UsageError);
 }
 
-Image painted(const Scene& scene, const PairState& state) {
+Image painted(const Scene& scene, const State& state) {
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   canvas.paint(Composition(scene, *make_pair_log(scene.system)).frame({state}));
   Image image{scene.view.width_px, scene.view.height_px, {}};
@@ -198,7 +198,7 @@ TEST(Compare, OneDigitOfACounterCannotHideInAFrameOf4K) {
   scene.view.width_px = 3840;
   scene.view.height_px = 2160;
   const auto log = make_pair_log(scene.system);
-  PairState state = log->blocks_at(time_of(Instant::last(), *log));
+  State state = log->state_at(time_of(Instant::last(), *log));
   const Image right = painted(scene, state);
   for (const int wrong : {313, 315, 304, 374, 214}) {
     state.count = wrong;

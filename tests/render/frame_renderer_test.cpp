@@ -44,7 +44,7 @@ class FullPaint {
   std::int64_t frame_count() const { return film_frames(schedule_); }
   Bytes frame(std::int64_t number) const {
     Canvas canvas(scene_.view.width_px, scene_.view.height_px);
-    canvas.paint(composition_.frame({log_->blocks_at(schedule_.time_of(number))}));
+    canvas.paint(composition_.frame({log_->state_at(schedule_.time_of(number))}));
     return bytes_of(canvas.view());
   }
 

@@ -35,7 +35,7 @@ class RenderTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-Pixels painted(const Scene& scene, const PairState& state) {
+Pixels painted(const Scene& scene, const State& state) {
   const auto log = make_pair_log(scene.system);
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   canvas.paint(Composition(scene, *log).frame({state}));
@@ -60,7 +60,7 @@ TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {
   ASSERT_EQ(std::int64_t(video.frames.size()), frames);
   ASSERT_EQ(frames, film_frames(schedule));
   for (std::int64_t k = 0; k < frames; ++k) {
-    const Pixels expected = painted(article, log->blocks_at(schedule.time_of(k)));
+    const Pixels expected = painted(article, log->state_at(schedule.time_of(k)));
     const double mse = error_between(video.frames[std::size_t(k)].rgb, expected);
     EXPECT_GT(testing_support::psnr_db(mse), 38) << "frame " << k;
   }
@@ -72,7 +72,7 @@ TEST_F(RenderTest, TheLastFrameReads314) {
   const DecodedVideo video = decode_video(path("out.mp4"));
   const auto log = make_pair_log(article.system);
   const Schedule schedule = make_schedule(article, *log);
-  PairState state = log->blocks_at(schedule.time_of(film_frames(schedule) - 1));
+  State state = log->state_at(schedule.time_of(film_frames(schedule) - 1));
   ASSERT_EQ(state.count, 314);
   const double as_314 = error_between(video.frames.back().rgb, painted(article, state));
   for (const int other : {313, 315, 214, 324}) {

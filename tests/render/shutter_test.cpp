@@ -42,7 +42,7 @@ Rect bounds_of(const DrawList& list, ItemId block) {
 /// Rows in which the blocks look different: above them, their upper lines, their middle, and so on.
 std::vector<int> rows_of(const Scene& scene) {
   const auto log = make_pair_log(scene.system);
-  const DrawList list = Composition(scene, *log).frame({log->blocks_at(Rational(0))});
+  const DrawList list = Composition(scene, *log).frame({log->state_at(Rational(0))});
   std::set<int> rows;
   for (const ItemId block : {ItemId::red_block, ItemId::blue_block}) {
     const Rect bounds = bounds_of(list, block);
@@ -78,7 +78,7 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
   for (int i = 0; i < kInstants; ++i) {
     const Rational video_s =
         (frame + scene.view.shutter * Rational(2 * i + 1, 2 * kInstants)) / scene.view.frame_rate;
-    PairState state = log->blocks_at(schedule.at(video_s).time);
+    State state = log->state_at(schedule.at(video_s).time);
     state.count = count;
     canvas.update(composition.frame({state}));
     mean.add(samples_of(canvas.view(), rows));

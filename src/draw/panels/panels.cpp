@@ -34,6 +34,14 @@ std::vector<Point> Circle::arc(double from, double to) const {
   return points;
 }
 
+PairState blocks_state(const State& state, const TwoBlocks& blocks) {
+  const auto motion = [&](std::size_t body) {
+    const auto& [position, velocity] = state.bodies[body];
+    return BlockMotion{blocks.side * position[0], blocks.side * velocity[0]};
+  };
+  return {state.count, motion(blocks.blue_id), motion(blocks.red_id)};
+}
+
 bool shows_a_turn(const DrawingContext& context) {
   if (context.pair() == nullptr) return false;
   const Span span = span_of(context.scene, context.log);

@@ -51,6 +51,8 @@ Drawable speeds_panel(const DrawingContext& context, const PanelPlace& place);
 /// @throws UsageError if no two discs meet.
 Drawable separation_panel(const DrawingContext& context, const PanelPlace& place);
 
+/// The two blocks of a state, as seen from what is immovable beside them.
+PairState blocks_state(const State& state, const TwoBlocks& blocks);
 /// Whether red comes, at least three collisions happen, and red goes while the scene is shown.
 bool shows_a_turn(const DrawingContext& context);
 

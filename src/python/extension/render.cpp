@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
@@ -106,13 +105,8 @@ std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format,
                                const std::stop_token& stop) {
   if (format == "svg") return draw_svg(list);
   if (format == "pdf") return draw_pdf(list);
-  if (format != "png")
-    throw UsageError(fmt::format("format {}: must be png or svg or pdf", format));
-  Canvas canvas(list.width_px, list.height_px,
-                list.background ? Background::opaque : Background::transparent);
-  canvas.listen(stop);
-  canvas.paint(list);
-  return encode_png(canvas.view());
+  if (format == "png") return draw_png(list, stop);
+  throw UsageError(fmt::format("format {}: must be png or svg or pdf", format));
 }
 
 /// The bytes of a still file of this format.

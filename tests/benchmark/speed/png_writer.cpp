@@ -88,7 +88,7 @@ void write_frames(const Options& options, std::int64_t begin, std::int64_t end) 
   const Write& write = writers().at(options.writer);
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   for (std::int64_t frame = begin; frame < end; ++frame) {
-    canvas.update(composition.frame({log->blocks_at(schedule.time_of(frame))}));
+    canvas.update(composition.frame({log->state_at(schedule.time_of(frame))}));
     write(canvas.view(), fmt::format("{}/{:06}.png", options.folder, frame));
   }
 }

@@ -1,0 +1,142 @@
+// The loupe covers nothing, and has room wherever there is some.
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "draw/font.hpp"
+#include "draw/lecture_frames.hpp"
+#include "draw/turned_round.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A place that something takes.
+struct Taken {
+  std::string what;
+  double left;
+  double top;
+  double right;
+  double bottom;
+};
+
+Taken taken(std::string what, const Rect& r) {
+  return {std::move(what), r.x, r.y, r.right(), r.bottom()};
+}
+
+/// What the loupe must not cover: texts and blocks. Its own texts are checked against these too.
+std::vector<Taken> places(const DrawList& frame, const Fonts& fonts) {
+  std::vector<Taken> found;
+  for (const DrawItem& item : frame.items) {
+    if (const auto* text = std::get_if<TextItem>(&item)) {
+      const double width = fonts.of(text->face).width_em(text->text) * text->size_px;
+      found.push_back({shows(text->id, ItemId::loupe) ? "zoom" : text->text, text->origin.x,
+                       text->origin.y - Font::kCapHeight_em * text->size_px, text->origin.x + width,
+                       text->origin.y + 0.22 * text->size_px});
+    }
+    const auto* box = std::get_if<RectangleItem>(&item);
+    if (box != nullptr && shows(box->id, ItemId::red_block)) {
+      found.push_back(taken("red", box->bounds));
+    }
+    if (box != nullptr && shows(box->id, ItemId::blue_block)) {
+      found.push_back(taken("blue", box->bounds));
+    }
+    const auto* plate = std::get_if<PlateItem>(&item);
+    if (plate != nullptr && plate->id >= ItemId::panels) {
+      found.push_back(taken("panel", plate->bounds));
+    }
+    const auto* group = std::get_if<GroupItem>(&item);
+    if (group != nullptr) found.push_back(taken("loupe", group->bounds));
+  }
+  return found;
+}
+
+void expect_apart(const DrawList& frame, const Fonts& fonts) {
+  const std::vector<Taken> all = places(frame, fonts);
+  for (const Taken& one : all) {
+    if (one.what != "loupe" && one.what != "zoom") continue;
+    EXPECT_GE(one.left, 0) << one.what;
+    EXPECT_LE(one.right, frame.width_px) << one.what;
+    for (const Taken& other : all) {
+      const bool is_inside = one.what == "zoom" && other.what == "loupe";
+      if (other.what == "zoom" || other.what == one.what || is_inside) continue;
+      const bool overlap = one.left < other.right && other.left < one.right &&
+                           one.top < other.bottom && other.top < one.bottom;
+      EXPECT_FALSE(overlap) << one.what << " and " << other.what;
+    }
+  }
+}
+
+TEST(LoupePlace, HasRoomBesideTwoDiagrams) {
+  for (const char* size : {"1920x1080", "1280x720", "1080x1920", "720x1600"}) {
+    const Frames frames(lecture(5, size) +
+                        Settings{{"show.title", "The turn of five digits"},
+                                 {"show.overlays", "masses"},
+                                 {"show.panels", "velocity,unfolded"},
+                                 {"time.slow-motion", "turn-1e-6:turn+1e-6:1e7"}});
+    EXPECT_TRUE(loupe_in(frames.at(frames.turn()))) << size;
+  }
+}
+
+/// The lines to the inset begin at 60 % of red's width, and go away from the gap.
+/// @param side  -1: the wall is on the right
+void expect_lines_clear_of_the_gap(const DrawList& frame, int side) {
+  constexpr std::size_t kFirstLine = 100;
+  const Rect red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+  int lines = 0;
+  for (const PathItem& line : items_of<PathItem>(frame.items, ItemId::wall)) {
+    if (line.id < nth(ItemId::wall, kFirstLine)) continue;
+    ++lines;
+    const auto points = line.points.view();
+    EXPECT_NEAR(points[0].x, red.x + (side > 0 ? 0.6 : 0.4) * red.width, 1);
+    const bool is_above = std::max(points[0].y, points[1].y) < red.y;
+    EXPECT_TRUE(is_above || (side > 0 ? points[1].x > red.right() : points[1].x < red.x));
+  }
+  EXPECT_EQ(lines, loupe_in(frame) ? 2 : 0);
+}
+
+TEST(LoupePlace, CoversNothingInAnyShape) {
+  const Fonts fonts;
+  const std::vector<Settings> contents = {
+      {},
+      {{"show.overlays", "masses,velocities"}},
+      {{"show.overlays", "masses,velocities,time,ruler"}, {"show.title", "Why do blocks count π?"}},
+      {{"show.panels", "velocity,unfolded"}, {"red.width", "by-mass"}},
+      {{"show.panels", "velocity"}, {"show.overlays", "masses"}, {"show.title", "Why?"}},
+      {{"time.slow-motion", "auto"}, {"show.caption", "Slowly"}, {"show.overlays", "energy"}}};
+  int seen = 0;
+  int tried = 0;
+  for (const char* size : {"1280x720", "3840x2160", "1080x1920", "1080x1080", "1600x600",
+                           "720x1600", "1024x768", "640x360"}) {
+    for (const auto& [digits, side] : {std::pair(2, 1), {3, 1}, {20, 1}, {2, -1}, {5, -1}}) {
+      for (const char* theme : {"lecture", "article", "print"}) {
+        for (const Settings& content : contents) {
+          std::optional<Frames> frames;
+          try {
+            const Scene scene = scene_with(lecture(digits, size) + Settings{{"view.theme", theme}} +
+                                           Settings{{"show.loupe", "auto"}} + content);
+            frames.emplace(side > 0 ? scene : turned_round(scene));
+          } catch (const UsageError&) {  // too small for something else
+            continue;
+          }
+          SCOPED_TRACE(std::string(size) + ", digits " + std::to_string(digits) + ", " + theme +
+                       (content.empty() ? "" : ", " + content.front().second));
+          ++tried;
+          for (const char* distance : {"-0.7", "-0.4", "-0.1", "0", "0.01", "0.3", "0.6"}) {
+            const DrawList frame = frames->at(frames->turn() + parse_rational(distance));
+            seen += loupe_in(frame) ? 1 : 0;
+            expect_apart(frame, fonts);
+            expect_lines_clear_of_the_gap(frame, side);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(tried, 250);
+  EXPECT_GT(seen, 4 * tried);
+}
+
+}  // namespace
+}  // namespace piblocks
