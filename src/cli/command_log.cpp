@@ -35,7 +35,7 @@ TableFormat parse_format(const std::string& text) {
 }
 
 /// The format that the ending of a file names; nothing if it names none.
-std::optional<std::string> ending_of(const std::string& file) {
+std::optional<std::string> format_by_ending(const std::string& file) {
   for (const char* format : kFormats) {
     if (has_ending(file, std::string(".") + format)) return format;
   }
@@ -45,7 +45,7 @@ std::optional<std::string> ending_of(const std::string& file) {
 /// The same, and CSV of a file without an ending. @throws UsageError for another ending.
 std::string format_of_file(const std::string& file) {
   if (std::filesystem::path(file).extension().empty()) return kFormats[0];
-  if (auto format = ending_of(file)) return *format;
+  if (auto format = format_by_ending(file)) return *format;
   throw UsageError(fmt::format(
       "log: '{}' has no known ending; use .csv, .jsonl or .npy, or say the format by --format",
       file));
@@ -60,7 +60,7 @@ std::string format_name(const Command& options) {
     return text;
   });
   if (!named) return format_of_file(file);
-  const std::optional<std::string> ending = ending_of(file);
+  const std::optional<std::string> ending = format_by_ending(file);
   if (!ending || *ending == *named) return *named;
   throw UsageError(
       fmt::format("--format {}: '{}' is a name of {}; leave out --format, or use another name",

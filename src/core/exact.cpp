@@ -118,7 +118,7 @@ class NumberReader {
     if (mantissa.empty()) throw UsageError(kNotANumber);
     if (take('e') || take('E')) scale += exponent();
     const auto digits = static_cast<double>(mantissa.size());
-    // Of numerator or denominator.
+    // The longer one of numerator and denominator has so many digits.
     const double length = scale > 0 ? digits + double(scale) : std::max(digits, -double(scale));
     if (length * kBitsPerDigit > double(max_bits_)) fail_too_long(max_bits_);
 

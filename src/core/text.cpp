@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 
 namespace piblocks {
 namespace {
@@ -131,6 +132,12 @@ std::string escaped(std::string_view text) {
     result += at == std::string_view::npos ? std::string(1, c) : kEntities.at(at);
   }
   return result;
+}
+
+std::string rounded_down(double value) {
+  std::string text = fmt::format("{:.16e}", value);  // such as 2.9657000000000000e+00
+  text.erase(5, text.find('e') - 5);
+  return fmt::format("{:.4g}", std::strtod(text.c_str(), nullptr));
 }
 
 std::string json_text(std::string_view text) {

@@ -75,18 +75,18 @@ std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
 
 /// How Cairo names groups and images in an SVG file: "surface12" and "image5" in version 1.16,
 /// "source-12" in 1.18.
-constexpr std::array<std::string_view, 3> kNames = {"surface", "source-", "image"};
+constexpr std::array<std::string_view, 3> kIdPrefixes = {"surface", "source-", "image"};
 
-/// Of the name that a text begins with; 0 if it begins with none.
-std::size_t length_of_name(std::string_view text) {
-  for (const std::string_view name : kNames) {
+/// Of the prefix that a text begins with; 0 if it begins with none.
+std::size_t length_of_prefix(std::string_view text) {
+  for (const std::string_view name : kIdPrefixes) {
     if (text.starts_with(name)) return name.size();
   }
   return 0;
 }
 
-/// Cairo numbers them through the whole process, so that equal draw lists give different files.
-/// This numbers them from the beginning of the file.
+/// Cairo counts these ids over the whole process. Here they are counted anew in each file, so that
+/// equal draw lists give equal files.
 std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
   const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());
   std::map<std::string_view, std::size_t> numbers;
@@ -95,7 +95,7 @@ std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
   for (auto mark = text.find_first_of("\"#"); mark != std::string_view::npos;
        mark = text.find_first_of("\"#", mark + 1)) {
     const std::size_t at = mark + 1;
-    const std::size_t length = length_of_name(text.substr(at));
+    const std::size_t length = length_of_prefix(text.substr(at));
     const bool is_name = text[mark] == '#' || text.substr(0, at).ends_with("id=\"");
     if (length == 0 || !is_name) continue;
     const std::size_t begin = at + length;

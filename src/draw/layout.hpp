@@ -163,8 +163,9 @@ Layout lay_out_stage(const LayoutContext& context, const FramePlan& plan);
 Layout lay_out_article(const LayoutContext& context, const Integer& longest_count,
                        const Rect& area);
 
-/// @throws UsageError if positions, which are doubles, would be drawn in wrong places.
-void check_resolution(const View& view, double scale);
+/// @throws UsageError if positions along a range of the view, which are doubles, would be drawn in
+///         wrong places. @param key  of the range
+void check_resolution(const Range& range, const char* key, double scale);
 
 /// The two blocks of a closed form while the picture is exposed, as seen from their wall.
 /// @param red, blue  at its instant, without dwells

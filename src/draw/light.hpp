@@ -21,8 +21,8 @@ class Light {
     for (std::size_t i = 0; i < units_.size(); ++i) {
       units_[i] = static_cast<std::int64_t>(of(double(i) / kUnitsPerStep) * kLightUnit);
     }
-    for (std::size_t part = 0; part < firsts_.size(); ++part) {
-      firsts_[part] = search(double(part) / kParts);
+    for (std::size_t part = 0; part < first_samples_.size(); ++part) {
+      first_samples_[part] = search(double(part) / kParts);
     }
   }
 
@@ -39,7 +39,7 @@ class Light {
   /// The nearest sample.
   std::uint8_t sample(double light) const {
     const double part = std::clamp(light, 0.0, 1.0) * kParts;
-    std::size_t sample = firsts_[static_cast<std::size_t>(part)];
+    std::size_t sample = first_samples_[static_cast<std::size_t>(part)];
     while (sample < 255 && light >= begin_of(sample + 1)) ++sample;
     return static_cast<std::uint8_t>(sample);
   }
@@ -47,9 +47,9 @@ class Light {
   static constexpr double kLightUnit = 1 << 30;
 
  private:
-  /// Samples begin half a step below themselves.
+  /// The least light that is nearest to this sample.
   double begin_of(std::size_t sample) const { return table_[sample * kPerStep - kPerStep / 2]; }
-  /// The last sample that begins at no more light.
+  /// The nearest sample, by halving.
   std::uint8_t search(double light) const {
     std::size_t sample = 0;
     for (std::size_t step = 128; step > 0; step /= 2) {
@@ -74,7 +74,7 @@ class Light {
   static constexpr std::size_t kParts = 4096;
   std::array<double, 255 * kPerStep + 1> table_{};
   std::array<std::int64_t, 255 * kUnitsPerStep + 1> units_{};
-  std::array<std::uint8_t, kParts + 1> firsts_{};  ///< of each part of all light
+  std::array<std::uint8_t, kParts + 1> first_samples_{};  ///< of each part of all light
 };
 
 }  // namespace piblocks

@@ -130,7 +130,7 @@ std::string short_text(const Rational& value) {
   }
   constexpr std::size_t kShort = 7;
   const std::string fraction = Rational(abs(value)).get_str();
-  if (sign.empty() ? fraction.size() <= kShort : fraction.size() < kShort) return sign + fraction;
+  if (fraction.size() + (value < 0 ? 1 : 0) <= kShort) return sign + fraction;
   if (size.exponent >= -2 && size.exponent < 7) {
     return fixed_text(to_double(value), std::max(0, 2 - static_cast<int>(size.exponent)));
   }

@@ -95,6 +95,7 @@ std::unique_ptr<Log> make_log_of_valid(const System& system, const std::optional
 }
 
 Integer count_collisions(const System& system, const std::optional<Rational>& horizon) {
+  if (horizon) require_not_negative(*horizon);
   const std::optional<TwoBlocks> blocks = two_blocks_of(system);
   return blocks ? count_collisions(*blocks) : make_log(system, horizon)->last();
 }

@@ -22,6 +22,10 @@ std::string name_of(const System& system, std::size_t body) {
 std::string key_of(const System& system, std::size_t body, const char* value) {
   return fmt::format("{}.{}", name_of(system, body), value);
 }
+/// As in "the left wall", or "the wall".
+std::string noun_of(const Wall& wall) {
+  return wall.name == "wall" ? wall.name : wall.name + " wall";
+}
 
 Rational dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1]; }
 ExactVector difference(const ExactVector& a, const ExactVector& b) {
@@ -57,9 +61,8 @@ void check_wall(const System& system, const Wall& wall, std::size_t index,
   const Rational along = dot(difference(body.position, wall.point), wall.normal);
   const Rational square = dot(wall.normal, wall.normal);
   const bool is_inside = along >= 0 && along * along >= reach * reach * square;
-  problems.require(is_inside, key_of(system, index, "position"),
-                   "= [{}, {}]: is beyond the {} wall", body.position[0], body.position[1],
-                   wall.name);
+  problems.require(is_inside, key_of(system, index, "position"), "= [{}, {}]: is beyond the {}",
+                   body.position[0], body.position[1], noun_of(wall));
 }
 
 /// What must be from left to right: wall, blue, red.
@@ -98,8 +101,8 @@ void check_line(const System& system, SceneProblems& problems) {
     for (const Wall& wall : system.walls) {
       const Rational inside = sgn(wall.normal[0]) * (body.position[0] - wall.point[0]);
       problems.require(inside >= body.size / 2, key_of(system, order[i], "position"),
-                       "= {}: reaches {} beyond the {} wall", body.position[0],
-                       Rational(body.size / 2 - inside), wall.name);
+                       "= {}: reaches {} beyond the {}", body.position[0],
+                       Rational(body.size / 2 - inside), noun_of(wall));
     }
     if (i == 0) continue;
     const Body& left = system.bodies[order[i - 1]];

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -27,9 +28,9 @@ void require_certain(const Scene& scene, const Log& log, const std::optional<Rat
   const std::optional<double> until = log.certain_until(time);
   if (!until) return;
   throw UsageError(fmt::format(
-      "bodies: the result is certain only until time {:.6g}; after that, rounding may change which "
+      "bodies: the result is certain only until time {}; after that, rounding may change which "
       "bodies collide; end earlier, as with time.to = {:.4g}, or accept this by --allow-uncertain",
-      *until, *until * 0.999));
+      rounded_down(*until), *until * 0.999));
 }
 
 std::optional<std::string> tie_note(const Log& log, const Integer& last) {

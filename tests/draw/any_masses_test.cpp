@@ -21,9 +21,7 @@ struct Pictures {
   explicit Pictures(const Scene& scene)
       : log(make_pair_log(scene.system)), composition(scene, *log) {}
 
-  DrawList at(const Rational& time) const {
-    return composition.frame({log->state_at(time), time});
-  }
+  DrawList at(const Rational& time) const { return composition.frame({log->state_at(time), time}); }
 
   std::unique_ptr<PairLog> log;
   Composition composition;

@@ -251,7 +251,7 @@ TEST(Composition, RefusesAViewThatIsCloserThanPositionsAreKnown) {
   };
   EXPECT_EQ(problem_at(parse_rational("1e15"), 1),
             "view.x: so far from 0 positions are 2.2e-01 apart, which would be 31.1 pixels; show "
-            "more of the axis, or move wall, blocks and view towards 0");
+            "more of the axis, or move walls, bodies and view towards 0");
   EXPECT_TRUE(problem_at(1, parse_rational("1e-15")).starts_with("view.x: so far from 0"));
   EXPECT_EQ(problem_at(parse_rational("1e12"), 1), "accepted");
   EXPECT_EQ(problem_at(parse_rational("1e15"), parse_rational("1e5")), "accepted");

@@ -357,7 +357,8 @@ TEST(ConservationPanel, SumsAreConstant) {
     };
     for (Integer k = 1; k <= pictures.log->last(); k += 1) {
       const PairState state = state_after(*pictures.log, k);
-      const std::vector<RectangleItem> bars = Shown(pictures.composition.frame({bodies_state(state)})).bars;
+      const std::vector<RectangleItem> bars =
+          Shown(pictures.composition.frame({bodies_state(state)})).bars;
       ASSERT_EQ(bars.size(), 4U);
       EXPECT_NEAR(momentum(bars[1]), state.red.velocity, 1e-9);
       EXPECT_NEAR(momentum(bars[2]), state.blue.velocity / mass, 1e-9);

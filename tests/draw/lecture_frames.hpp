@@ -90,6 +90,8 @@ inline std::optional<SeenLoupe> loupe_in(const DrawList& frame) {
     if (bounds.height > bounds.width) seen.face = is_right ? bounds.x : bounds.right();
   }
   const auto blue = items_of<RectangleItem>(seen.list.items, ItemId::blue_block);
+  const auto anchor = items_of<RectangleItem>(seen.list.items, ItemId::wall);
+  if (!anchor.empty()) seen.blue = anchor.front().bounds;
   if (!blue.empty()) seen.blue = blue.front().bounds;
   seen.red = items_of<RectangleItem>(seen.list.items, ItemId::red_block).front().bounds;
   seen.zoom = items_of<TextItem>(frame.items, ItemId::loupe).front().text;

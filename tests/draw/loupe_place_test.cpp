@@ -138,5 +138,40 @@ TEST(LoupePlace, CoversNothingInAnyShape) {
   EXPECT_GT(seen, 4 * tried);
 }
 
+TEST(LoupePlace, OfOtherBlocksCoversNothing) {
+  const Fonts fonts;
+  int seen = 0;
+  for (const char* size : {"1280x720", "3840x2160", "1080x1920", "1080x1080", "640x360"}) {
+    for (const char* overlays : {"time", "masses,velocities", "ruler,energy"}) {
+      for (const int side : {1, -1}) {
+        SCOPED_TRACE(std::string(size) + ", " + overlays);
+        Scene scene = scene_with({{"view.size", size},
+                                  {"view.theme", "dark"},
+                                  {"show.title", "Three"},
+                                  {"show.overlays", overlays}});
+        scene.system = {1,
+                        {{1, {2 * side}, {side}}, {5, {6 * side}}, {std::nullopt, {9 * side}}},
+                        {{"wall", {side > 0 ? 0 : 12}, {1}}}};
+        if (side < 0) scene.system.walls[0].point = {-12};
+        scene.styles.resize(3);
+        scene.view.x = side > 0 ? Range{0, 12} : Range{-12, 0};
+        scene.time.to = Instant(Rational(8));
+        scene.show.loupe =
+            Loupe{.window = LoupeWindow{Instant(Rational(2)), Instant(Rational(5)), 20}};
+        std::optional<Frames> frames;
+        try {
+          frames.emplace(scene);
+        } catch (const UsageError&) {  // too small
+          continue;
+        }
+        const DrawList frame = frames->at(Rational(601, 200));
+        seen += loupe_in(frame) ? 1 : 0;
+        expect_apart(frame, fonts);
+      }
+    }
+  }
+  EXPECT_GT(seen, 15);
+}
+
 }  // namespace
 }  // namespace piblocks

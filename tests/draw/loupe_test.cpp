@@ -199,7 +199,7 @@ TEST(Loupe, IsRefusedWhereItIsNeverSeen) {
     EXPECT_EQ(refusal.find('\n'), std::string::npos);
   };
   expect(1, "turn-0.3:turn+0.3:10",
-         "show.loupe: in its window from 16/5 to 19/5 the gap between wall and red is never below");
+         "show.loupe: in its window from 16/5 to 19/5 the gap is never below");
   expect(3, "turn+2:turn+3:10", "the loupe is seen below 72; move the window to the turn");
   expect(3, "turn-3:turn-2:10", "is never below");
   expect(1, "100:101:10",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/log.hpp>
+#include <piblocks/two_blocks.hpp>
 
 #include <stop_token>
 #include <string>
@@ -74,6 +75,7 @@ TEST(LazyLog, AnswersAreThoseOfALongerRun) {
 
 TEST(LazyLog, BeginsAtTimeZero) {
   EXPECT_THROW(make_log(article_system(3), Rational(-1)), UsageError);
+  EXPECT_THROW(count_collisions(article_system(3), Rational(-1)), UsageError);
   EXPECT_THROW(make_log({1, {{1, {0}}, {1, {2}}, {1, {4}}}}, Rational(-1)), UsageError);
 }
 

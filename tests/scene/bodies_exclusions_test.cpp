@@ -125,11 +125,13 @@ TEST(Bodies, HaveTheProblemsThatNoFileCanWrite) {
   // The names alone do not make them blue, red and a wall on their left.
   System behind = article_system(3);
   behind.walls[0].normal = {-1};
-  EXPECT_FALSE(problems_of(behind).empty());
+  ASSERT_FALSE(problems_of(behind).empty());
+  EXPECT_EQ(problems_of(behind)[0].reason, "= 2: reaches 5/2 beyond the wall");
   System discs = article_system(3);
   discs.dimensions = 2;
   discs.bodies[1].position = {Rational(16, 5), 0};  // touches blue as a block, overlaps as a disc
-  EXPECT_FALSE(problems_of(discs).empty());
+  ASSERT_FALSE(problems_of(discs).empty());
+  EXPECT_EQ(problems_of(discs)[0].reason, "= [16/5, 0]: overlaps blue");
   System fixed = article_system(3);
   fixed.bodies[0].mass = std::nullopt;
   EXPECT_FALSE(has_short_names(fixed));

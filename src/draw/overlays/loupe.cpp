@@ -64,12 +64,10 @@ LoupeInset::LoupeInset(const DrawingContext& context, const LoupeGap& gap)
       }()),
       widths_(context.font, "0123456789,.×·"),
       stage_(context.layout),
-      outer_(context.colors[gap.outer]) {
-  if (gap.between) {
-    between_ = context.colors[*gap.between];
-  } else if (gap.anchor < context.colors.size()) {
-    anchor_ = context.colors[gap.anchor];
-  }
+      outer_(context.colors[gap.outer]),
+      hit_color_(color_of_hit(gap.pair(), context.scene.system, context.colors)) {
+  if (gap.between) between_ = context.colors[*gap.between];
+  if (gap.anchor < context.colors.size()) anchor_ = context.colors[gap.anchor];
   const FormulaSetter setter = context.setter();
   const long most = zoom_.most_exponent() + 1;
   double widest_em = widths_.width_em("×8,888");
@@ -100,11 +98,14 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   const double room =
       floor_px_ - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
   const double taller = std::round(std::min(kBlocksHeight * short_side, room));
-  const std::size_t near = gap_.between.value_or(anchor_ ? gap_.anchor : gap_.outer);
-  const double ratio = std::clamp(layout.height_px(gap_.outer) / layout.height_px(near),
+  const std::size_t inner_block = gap_.between.value_or(anchor_ ? gap_.anchor : gap_.outer);
+  const double ratio = std::clamp(layout.height_px(gap_.outer) / layout.height_px(inner_block),
                                   1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
-  near_height_px_ = std::round(taller / std::max(1.0, ratio));
+  inner_height_px_ = std::round(taller / std::max(1.0, ratio));
   outer_height_px_ = std::round(taller * std::min(1.0, ratio));
+  // What stands still beside two blocks is as high as both.
+  anchor_height_px_ =
+      gap_.between ? std::max(inner_height_px_, outer_height_px_) : inner_height_px_;
   if (context.scene.show.hits && context.scene.view.theme != Theme::article) {
     marks_.emplace(context, HUGE_VAL, HUGE_VAL);
   }
@@ -126,33 +127,33 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
     lines_y_ = bottom + loupe_style::kOutside * short_side;  // above all that is above the blocks
   } else {
     corners_ = {Point{inner, bounds_.y}, Point{inner, bottom}};
-    lines_y_ = layout.floor_px - layout.height_px(near) / 2;
+    lines_y_ = layout.floor_px - layout.height_px(inner_block) / 2;
   }
   place_scenery(context);
 }
 
-Rect LoupeInset::placed(const Rect& r) const {
+Rect LoupeInset::turned(const Rect& r) const {
   return gap_.side > 0 ? r : Rect{bounds_.width - r.right(), r.y, r.width, r.height};
 }
 
-Point LoupeInset::placed(const Point& p) const {
+Point LoupeInset::turned(const Point& p) const {
   return gap_.side > 0 ? p : Point{bounds_.width - p.x, p.y};
 }
 
 void LoupeInset::place_scenery(const DrawingContext& context) {
   const double line = sizes_.wall_line;
-  const double top = floor_px_ - std::max(near_height_px_, outer_height_px_) -
+  const double top = floor_px_ - std::max(inner_height_px_, outer_height_px_) -
                      loupe_style::kAboveBlocks / 2 * sizes_.short_side;
   const double floor_left = anchor_ ? 0 : face_px_ - line;
   std::vector<DrawItem> items;
   if (!anchor_) {
-    Point from = placed(Point{face_px_, top});
-    Point to = placed(Point{face_px_, floor_px_ + line});
+    Point from = turned(Point{face_px_, top});
+    Point to = turned(Point{face_px_, floor_px_ + line});
     if (gap_.side < 0) std::swap(from, to);
     items = hatched_wall(from, to, context);
   }
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
-                                   placed(Rect{floor_left, floor_px_, bounds_.width, line}),
+                                   turned(Rect{floor_left, floor_px_, bounds_.width, line}),
                                    palette_.wall, std::nullopt});
   scenery_ = plate_of(ItemId::wall, {0, 0, bounds_.width, bounds_.height}, std::move(items));
 }

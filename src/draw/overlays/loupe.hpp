@@ -40,8 +40,9 @@ class LoupeInset {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const;
 
  private:
-  // Ids among those of the wall and of blue.
+  // Ids among those of the wall, and of both blocks.
   static constexpr std::size_t kFirstLine = 100;
+  static constexpr std::size_t kAnchor = 1;
   static constexpr std::size_t kCut = 100;
   static constexpr std::size_t kSweep = 100;
 
@@ -51,8 +52,8 @@ class LoupeInset {
   void place(const DrawingContext& context, const LoupePlace& found);
   void place_scenery(const DrawingContext& context);
   /// Turns the inset round if its anchor is on the right.
-  Rect placed(const Rect& r) const;
-  Point placed(const Point& p) const;
+  Rect turned(const Rect& r) const;
+  Point turned(const Point& p) const;
 
   DrawList picture(const FrameState& shown, double zoomed) const;
   void add_blocks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
@@ -77,7 +78,7 @@ class LoupeInset {
   std::function<std::string(const FrameState&)> slow_text_;  ///< may be empty
   Rect bounds_;                                              ///< in whole pixels of the frame
   Point zoom_end_;                 ///< right end of the zoom's baseline, in the frame
-  bool is_zoom_end_left_ = false;  ///< it is the left end
+  bool is_zoom_end_left_ = false;  ///< that is the left end
   // Lines go from a place at the outer block to two corners of the inset; in the frame.
   Layout stage_;
   double lines_y_ = 0;
@@ -88,11 +89,13 @@ class LoupeInset {
   double between_px_ = 0;  ///< the block in between is cut to this; 0 if there is none
   double room_px_ = 0;     ///< for the gap
   double floor_px_ = 0;
-  double near_height_px_ = 0;  ///< of the block in between, else of the anchor
+  double inner_height_px_ = 0;  ///< of the block in between, else of the anchor
   double outer_height_px_ = 0;
+  double anchor_height_px_ = 0;
   std::optional<BlockColors> anchor_;  ///< unless it is a wall
   BlockColors between_;
   BlockColors outer_;
+  Color hit_color_;  ///< where the gap closes
   std::optional<HitMarks> marks_;
   PlateItem scenery_;
 };

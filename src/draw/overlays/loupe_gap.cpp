@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "draw/overlays/loupe_place.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr const char* kLoupeKey = "show.loupe";
 /// Of positions, which are doubles; gaps of two blocks beside something immovable are known better.
-constexpr int kMostZoomOfPositions = 1'000'000'000;
+constexpr int kMaxZoomOfDoubles = 1'000'000'000;
 
 double most_gap_px(const LayoutContext& context) {
   return style::kMaxLoupeGap * context.sizes.short_side;
@@ -91,7 +92,9 @@ std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& 
     if (!loupe.window) return std::nullopt;
     throw UsageError(
         fmt::format("{}: the loupe enlarges the gap beside what is immovable, and the view does "
-                    "not show its face; let view.x contain position {}, or leave the loupe out",
+                    "not show its face; let view.x contain position {} and what is beside it, or "
+                    "leave the loupe "
+                    "out",
                     kLoupeKey, to_text(blocks.side * blocks.wall_face)));
   }
   const double most_px = most_gap_px(context);
@@ -106,7 +109,7 @@ std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& 
   const double shown_px = least_gap(log, shown) * context.layout.scale;
   if (shown_px < most_px) return gap;
   throw UsageError(fmt::format(
-      "{}: in its window from {} to {} the gap between wall and red is never below "
+      "{}: in its window from {} to {} the gap is never below "
       "{:.4g} pixels, and the loupe is seen below {:.4g}; move the window to the turn, "
       "use more digits, or leave the loupe out",
       kLoupeKey, to_text(gap.window->from), to_text(gap.window->to), shown_px, most_px));
@@ -136,15 +139,13 @@ LoupeGap gap_between(const Collision& met, const System& system) {
 LoupeGap gap_of_bodies(const DrawingContext& context, const Loupe& loupe) {
   const Log& log = context.log;
   const Span window = span_of_window(loupe, log).value();
-  if (loupe.window->zoom > kMostZoomOfPositions) {
-    throw UsageError(
-        fmt::format("{}: enlarges at most 1e9 times, but for two blocks beside something "
-                    "immovable; choose a smaller factor",
-                    kLoupeKey));
+  if (loupe.window->zoom > kMaxZoomOfDoubles) {
+    throw UsageError(fmt::format(
+        "{}: enlarges these bodies at most 1e9 times; choose a smaller factor", kLoupeKey));
   }
   const Span shown = shown_part(context, window);
   const Integer first = log.first_since(shown.from);
-  if (first > log.count_at(shown.to)) {
+  if (!log.has(first) || to_rational(log.collision_time(first)) > shown.to) {
     throw UsageError(
         fmt::format("{}: no bodies meet in its window from {} to {}; move it to a collision, or "
                     "leave the loupe out",
@@ -153,7 +154,7 @@ LoupeGap gap_of_bodies(const DrawingContext& context, const Loupe& loupe) {
   const Collision met = log.collision(first);
   LoupeGap gap = gap_between(met, context.scene.system);
   gap.window = window;
-  gap.least_px = most_gap_px(context);  // it closes, but enlarges no more than the window says
+  gap.least_px = most_gap_px(context);  // the gap closes; the window limits the zoom
   if (is_in_view(gap.meeting, context.scene.view)) return gap;
   throw UsageError(
       fmt::format("{}: the first bodies that meet in its window from {} to {} do so at position "
@@ -172,12 +173,12 @@ std::optional<Loupe> loupe_of(const LayoutContext& context) {
 
 }  // namespace
 
-bool LoupeGap::has(const MetPair& pair) const noexcept {
-  const auto& [low, high] = std::minmax(anchor, outer);
-  return pair[0] == low && pair[1] == high;
+MetPair LoupeGap::pair() const noexcept {
+  const auto [low, high] = std::minmax({between.value_or(anchor), outer});
+  return {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high)};
 }
 
-Gaps LoupeGap::widths(const FrameState& shown, const Layout& layout) const {
+Gaps LoupeGap::gaps_in(const FrameState& shown, const Layout& layout) const {
   if (between) return shown.gaps;
   const std::vector<Motion>& bodies = shown.state.bodies;
   const bool is_wall = anchor >= bodies.size();

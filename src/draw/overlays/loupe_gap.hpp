@@ -22,10 +22,12 @@ struct LoupeGap {
   double least_px = 0;                      ///< of what it shows, in pixels of the stage
   std::optional<Span> window = {};          ///< in which it is shown
 
-  bool has(const MetPair& pair) const noexcept;
-  FrameNeeds needs() const noexcept { return {.gaps = between.has_value()}; }
-  /// y2 is what is enlarged. Without a block in between it is as exact as positions are.
-  Gaps widths(const FrameState& shown, const Layout& layout) const;
+  /// Those that meet where the gap, or what is left of it, closes.
+  MetPair pair() const noexcept;
+  FrameNeeds needs() const noexcept { return {.gaps = between.has_value(), .hits = true}; }
+  /// y2 is what is enlarged. Without a block in between both are the gap, as exact as positions
+  /// are.
+  Gaps gaps_in(const FrameState& shown, const Layout& layout) const;
 };
 
 /// Nothing if the scene has no loupe, or leaves it to the program and there is nothing to show.

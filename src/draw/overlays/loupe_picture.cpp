@@ -28,7 +28,7 @@ constexpr double kFastBlock = 0.35;  ///< alpha of the block then
 
 double LoupeInset::opacity(const FrameState& shown) const {
   const double from_px = style::kMaxLoupeGap * sizes_.short_side;
-  const double gap_px = gap_.widths(shown, stage_).y2 * stage_.scale;
+  const double gap_px = gap_.gaps_in(shown, stage_).y2 * stage_.scale;
   double opacity = (from_px - gap_px) / (from_px * (1 - loupe_style::kFullyShown));
   if (gap_.window) {
     const Rational way = (shown.time - gap_.window->from) / (gap_.window->to - gap_.window->from);
@@ -62,7 +62,7 @@ void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items
 void LoupeInset::operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const double zoomed = zoom(gap_.widths(shown, stage_).y2);
+  const double zoomed = zoom(gap_.gaps_in(shown, stage_).y2);
   items.emplace_back(GroupItem{ItemId::loupe, bounds_,
                                std::make_shared<const DrawList>(picture(shown, zoomed)), seen});
   add_zoom(zoomed, faded(palette_.text, seen), items);
@@ -93,49 +93,49 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
 Contact LoupeInset::contact_at(double x_px, double left_px, double right_px,
                                const Color& color) const {
   if (gap_.side < 0) std::swap(left_px, right_px);
-  return contact_of(placed(Point{x_px, 0}).x, floor_px_, left_px, right_px, color);
+  return contact_of(turned(Point{x_px, 0}).x, floor_px_, left_px, right_px, color);
 }
 
 void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
                            std::vector<DrawItem>& items) const {
-  const double near = gap_.between || anchor_ ? near_height_px_ : HUGE_VAL;
+  const double inner = gap_.between || anchor_ ? inner_height_px_ : HUGE_VAL;
   const auto at_outer = [&](double gap) {
-    return contact_at(face_px_ + gap * px_per_unit + between_px_, near, outer_height_px_,
-                      outer_.line);
+    return contact_at(face_px_ + gap * px_per_unit + between_px_, inner, outer_height_px_,
+                      hit_color_);
   };
-  const Contact at_anchor = contact_at(face_px_, HUGE_VAL, near_height_px_, between_.line);
+  const Contact at_anchor =
+      contact_at(face_px_, anchor_ ? anchor_height_px_ : HUGE_VAL, inner_height_px_, between_.line);
   for (std::size_t n = 0; n < shown.hits.size(); ++n) {
     const Hit& hit = shown.hits[n];
-    const bool is_outer = hit.pair[0] == gap_.outer || hit.pair[1] == gap_.outer;
-    if (!gap_.between && !gap_.has(hit.pair)) continue;
+    const bool is_outer = hit.pair == gap_.pair();
+    if (!gap_.between && !is_outer) continue;
     marks_->add_arc(nth(ItemId::hits, n), hit.age_s, is_outer ? at_outer(hit.gaps.y2) : at_anchor,
                     items);
   }
-  const double gap = gap_.widths(shown, stage_).y2;
+  const double gap = gap_.gaps_in(shown, stage_).y2;
   if (gap_.between) {
     std::array both{at_anchor, at_outer(gap)};
     if (gap_.side < 0) std::swap(both[0], both[1]);
     marks_->add_glow(shown.hits_per_s, both, items);
-  } else if (std::ranges::any_of(shown.met_pairs,
-                                 [&](const MetPair& pair) { return gap_.has(pair); })) {
+  } else if (std::ranges::count(shown.met_pairs, gap_.pair()) > 0) {
     marks_->add_glow(shown.hits_per_s, std::array{at_outer(gap)}, items);
   }
 }
 
 void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
                             std::vector<DrawItem>& items) const {
-  const Gaps gaps = gap_.widths(shown, stage_);
+  const Gaps gaps = gap_.gaps_in(shown, stage_);
   const auto add = [&](ItemId id, double left, double right, double height,
                        const BlockColors& colors) {
     const Rect block{left, floor_px_ - height, std::max(0.0, right - left), height};
-    add_rectangles(id, block_at(placed(block), colors, line_px_), items);
+    add_rectangles(id, block_at(turned(block), colors, line_px_), items);
   };
   // The far sides are outside.
   const double beyond = 2 * line_px_;
   const double outer_x = face_px_ + gaps.y2 * px_per_unit + between_px_;
+  if (anchor_) add(nth(ItemId::wall, kAnchor), -beyond, face_px_, anchor_height_px_, *anchor_);
   add(ItemId::red_block, outer_x, std::max(outer_x, bounds_.width) + beyond, outer_height_px_,
       outer_);
-  if (anchor_) add(ItemId::blue_block, -beyond, face_px_, near_height_px_, *anchor_);
   if (!gap_.between) return;
   const double hits = shown.hits_per_s / frames_per_s_;
   const double swept =
@@ -143,14 +143,15 @@ void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
   if (swept > 0) {
     items.emplace_back(RectangleItem{
         nth(ItemId::red_block, kSweep),
-        placed(Rect{face_px_, floor_px_ - near_height_px_, outer_x - face_px_, near_height_px_}),
+        turned(Rect{face_px_, floor_px_ - inner_height_px_, outer_x - face_px_, inner_height_px_}),
         faded(between_.fill, swept * kSweepAlpha), std::nullopt});
   }
   add_between(face_px_ + gaps.y1 * px_per_unit, 1 - swept * (1 - kFastBlock), items);
 }
 
 void LoupeInset::add_between(double x_px, double seen, std::vector<DrawItem>& items) const {
-  const Rect block = placed(Rect{x_px, floor_px_ - near_height_px_, between_px_, near_height_px_});
+  const Rect block =
+      turned(Rect{x_px, floor_px_ - inner_height_px_, between_px_, inner_height_px_});
   BlockColors colors = between_;
   colors.fill = faded(colors.fill, seen);
   colors.edge = faded(colors.edge, seen);

@@ -19,7 +19,7 @@ constexpr double kMassOverhang = 0.08;
 
 constexpr double kBelowLine_em = 0.3;  ///< from the baseline of the article's counter
 
-/// Works as if the blocks left to the right.
+/// Computes in a frame that is mirrored if the anchor is on the right.
 class LoupePlacer {
  public:
   LoupePlacer(const DrawingContext& context, const FramePlan& plan, const LoupeGap& gap,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/rounded.hpp"
+#include "core/text.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "scene/schedule.hpp"
@@ -304,11 +305,7 @@ ReadOut fitted(const LayoutContext& context,
 
 /// From which time on the picture may be wrong.
 ReadOut certainty_read_out(const LayoutContext& context, double until) {
-  // Rounded down.
-  constexpr double kFigures = 1000;
-  const std::string begin = until < kFigures ? fmt::format("{:.4g}", until * (1 - 0.5 / kFigures))
-                                             : fixed_text(std::floor(until), 0);
-  const std::string text = fmt::format("not certain from t = {} on", begin);
+  const std::string text = fmt::format("not certain from t = {} on", rounded_down(until));
   return {"certainty", text,
           [=](const FrameState& shown) {
             return to_double(shown.time) >= until ? text : std::string();

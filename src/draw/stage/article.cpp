@@ -120,7 +120,7 @@ Layout article_layout(const LayoutContext& context, const CountLine& count_line,
   const bool rounded = layout.scale >= kLeastRounded_px;
   const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
   if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
-  check_resolution(view, layout.scale);
+  check_resolution(view.x, "view.x", layout.scale);
   const double view_width = layout.scale * length(view.x);
   const double view_height = layout.scale * length(view.y);
   const double top = area.y + (area.height - view_height - label_height - extra.below) / 2;

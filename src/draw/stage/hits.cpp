@@ -79,6 +79,13 @@ Contact contact_of(double x_px, double floor_px, double left_px, double right_px
           color};
 }
 
+Color color_of_hit(const MetPair& pair, const System& system,
+                   const std::vector<BlockColors>& colors) {
+  const auto [first, second] = pair;
+  const bool is_fixed = second >= system.bodies.size() || !system.bodies[second].mass;
+  return colors[is_fixed ? first : second].line;
+}
+
 HitMarks::HitMarks(const DrawingContext& context, double most_reach_px, double most_glow_px)
     : reach_px_(std::min(most_reach_px, style::kHitReach * context.sizes.short_side)),
       glow_px_(std::min(kGlowReach * reach_px_, most_glow_px)),
@@ -169,11 +176,10 @@ class LineMarks {
   explicit LineMarks(const DrawingContext& context)
       : layout_(context.layout),
         colors_(context.colors),
-        walls_(context.scene.system.walls),
-        order_(from_left_to_right(context.scene.system)) {
-    for (const Body& body : context.scene.system.bodies) is_fixed_.push_back(!body.mass);
+        system_(context.scene.system),
+        order_(from_left_to_right(system_)) {
     marks_.emplace(context, most_reach_px(labelled_above(context, layout_)),
-                   narrowest_px(line_walls(context.scene.system)) / 2);
+                   narrowest_px(line_walls(system_)) / 2);
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -220,32 +226,29 @@ class LineMarks {
   double height_px(std::size_t id) const { return is_wall(id) ? HUGE_VAL : layout_.height_px(id); }
   double position(std::size_t id, const FrameState& shown) const {
     if (!is_wall(id)) return shown.state.bodies[id].position[0];
-    return walls_[id - colors_.size()].normal[0] > 0 ? -HUGE_VAL : HUGE_VAL;
+    return system_.walls[id - colors_.size()].normal[0] > 0 ? -HUGE_VAL : HUGE_VAL;
   }
 
-  /// In the colour of the second one, if collisions move it.
   Contact contact_at(const MetPair& pair, double x_px, const FrameState& shown) const {
     const auto [first, second] = pair;
     const bool is_first_left = position(first, shown) < position(second, shown);
-    const bool is_second_fixed = is_wall(second) || is_fixed_[second];
     return contact_of(x_px, layout_.floor_px, height_px(is_first_left ? first : second),
                       height_px(is_first_left ? second : first),
-                      colors_[is_second_fixed ? first : second].line);
+                      color_of_hit(pair, system_, colors_));
   }
 
   double present_x_px(const MetPair& pair, const FrameState& shown) const {
     const auto [first, second] = pair;
     if (is_wall(second))
-      return layout_.at(to_double(walls_[second - colors_.size()].point[0]), 0).x;
+      return layout_.at(to_double(system_.walls[second - colors_.size()].point[0]), 0).x;
     const bool is_first_left = position(first, shown) < position(second, shown);
     return layout_.at(is_first_left ? second : first, shown).x;
   }
 
   Layout layout_;
   std::vector<BlockColors> colors_;
-  std::vector<Wall> walls_;
+  System system_;
   std::vector<std::size_t> order_;  ///< of bodies, from left to right
-  std::vector<bool> is_fixed_;
   std::optional<HitMarks> marks_;
 };
 

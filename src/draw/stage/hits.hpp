@@ -25,6 +25,10 @@ struct Contact {
 Contact contact_of(double x_px, double floor_px, double left_px, double right_px,
                    const Color& color);
 
+/// In the colour of the second one, if collisions move it.
+Color color_of_hit(const MetPair& pair, const System& system,
+                   const std::vector<BlockColors>& colors);
+
 class HitMarks {
  public:
   /// @param most_reach_px   how far marks may reach

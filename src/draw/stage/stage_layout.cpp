@@ -136,7 +136,8 @@ Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
   }
   layout.scale = std::min(width / to_double(view.x.high - view.x.low),
                           height / to_double(view.y.high - view.y.low));
-  check_resolution(view, layout.scale);
+  check_resolution(view.x, "view.x", layout.scale);
+  check_resolution(view.y, "view.y", layout.scale);
   layout.origin = {
       std::round(layout.window.width / 2 - to_double(view.x.high + view.x.low) / 2 * layout.scale),
       std::round(layout.window.height / 2 +
@@ -169,18 +170,14 @@ Rational twice_energy(const System& system) {
   return sum;
 }
 
-void check_resolution(const View& view, double scale) {
-  double farthest = 0;
-  for (const Range* range : {&view.x, &view.y}) {
-    farthest =
-        std::max({farthest, std::abs(to_double(range->low)), std::abs(to_double(range->high))});
-  }
+void check_resolution(const Range& range, const char* key, double scale) {
+  const double farthest = std::max(std::abs(to_double(range.low)), std::abs(to_double(range.high)));
   const double step_px = farthest * std::numeric_limits<double>::epsilon() * scale;
   if (step_px <= kMostStep_px) return;
-  throw UsageError(
-      fmt::format("view.x: so far from 0 positions are {:.1e} apart, which would be {:.1f} pixels; "
-                  "show more of the axis, or move wall, blocks and view towards 0",
-                  step_px / scale, step_px));
+  throw UsageError(fmt::format(
+      "{}: so far from 0 positions are {:.1e} apart, which would be {:.1f} pixels; show "
+      "more of the axis, or move walls, bodies and view towards 0",
+      key, step_px / scale, step_px));
 }
 
 AxisPlace place_axis(const LayoutContext& context, double stage_width_px) {
@@ -201,7 +198,7 @@ AxisPlace place_axis(const LayoutContext& context, double stage_width_px) {
     scale = 2 * std::floor(scale / 2);
     left_px = std::round(left_px);
   }
-  check_resolution(view, scale);
+  check_resolution(view.x, "view.x", scale);
   const bool is_whole = stage_width_px >= view.width_px;
   return {left_px - to_double(range.low) * scale, scale,
           is_whole ? view.width_px : std::floor(stage_width_px - sizes.margin)};

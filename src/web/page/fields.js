@@ -24,7 +24,7 @@ const GROUPS = [
     {key: "view.theme", label: "Theme", kind: "choice", choices: "themes"},
     {key: "show.overlays", label: "Overlays", kind: "names", choices: "overlays"},
     {key: "show.panels", label: "Diagrams", kind: "names", choices: "panels"},
-    {key: "show.loupe", label: "Loupe", hints: ["auto", "off"], empty: null},
+    {key: "show.loupe", label: "Loupe", hints: ["auto", "off"], empty: null, of: "line"},
     {key: "show.hits", label: "Hit marks", kind: "flag"},
     {key: "show.title", label: "Title", empty: ""},
     {key: "show.caption", label: "Caption", empty: ""}]},
@@ -249,6 +249,7 @@ class Field {
   isShown(facts) {
     const {key, of} = this.spec;
     if (of === "blocks" && facts.bodies) return false;
+    if (of === "line" && facts.bodies?.dimensions === 2) return false;
     return textOf(key, facts) !== null;
   }
 
