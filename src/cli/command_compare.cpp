@@ -147,7 +147,7 @@ class Printer {
   bool quiet_;
   ShownFrames<std::string> shown_;
   std::int64_t left_ = 0;
-  TextOutput out_{"-"};
+  TextOutput out_;
 };
 
 /// @throws UsageError if a report would replace what is compared.

@@ -113,7 +113,7 @@ void run_each(const std::vector<References>& all, TextOutput& out, const Act& ac
 
 void run_check(const Command& options) {
   const std::vector<References> all = references_of(options);
-  TextOutput out("-");
+  TextOutput out;
   check_diff(options, all);
   const fs::path scratch = temporary_folder();
   run_each(all, out,
@@ -123,18 +123,13 @@ void run_check(const Command& options) {
            });
 }
 
-void run_record(const Command& options) {
+/// @tparam kAct  writes references.
+template <auto kAct>
+void run_writing(const Command& options) {
   const std::vector<References> all = references_of(options);
-  TextOutput out("-");
+  TextOutput out;
   check_references(options, all);
-  run_each(all, out, record_golden);
-}
-
-void run_approve(const Command& options) {
-  const std::vector<References> all = references_of(options);
-  TextOutput out("-");
-  check_references(options, all);
-  run_each(all, out, approve_golden);
+  run_each(all, out, kAct);
 }
 
 void add_action(Command& golden, const char* name, const char* help,
@@ -160,9 +155,11 @@ void add_action(Command& golden, const char* name, const char* help,
 void add_golden(Command& app) {
   Command command = app.add_command("golden", "Hold scenes to references: record, check, approve");
   command.require_command();
-  add_action(command, "record", "Add the references that scenes do not have", run_record);
+  add_action(command, "record", "Add the references that scenes do not have",
+             run_writing<record_golden>);
   add_action(command, "check", "Compare scenes with their references; writes none", run_check);
-  add_action(command, "approve", "Replace references, and tell what changes", run_approve);
+  add_action(command, "approve", "Replace references, and tell what changes",
+             run_writing<approve_golden>);
   command.set_footer(
       "Every scene is reported, whatever is found about the others. The exit code of check is "
       "that\n"

@@ -49,7 +49,7 @@ void print_limits(TextOutput& out) {
 }
 
 void run_info() {
-  TextOutput out("-");
+  TextOutput out;
   out.format_line("piblocks {}", kVersion);
   out.line("libraries:");
   for (const std::string& library : physics_library_versions()) out.format_line("  {}", library);

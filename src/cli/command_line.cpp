@@ -14,8 +14,8 @@
 
 #include "cli/app.hpp"
 #include "cli/command.hpp"
+#include "cli/text_output.hpp"
 #include "core/nearest_name.hpp"
-#include "core/output_file.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -249,12 +249,6 @@ std::string help_text(const CLI::App& command) {
   return command.help(above.empty() ? "piblocks" : "piblocks " + above);
 }
 
-void print(const std::string& text) {
-  OutputFile out("-", OutputFile::Contents::text);
-  out.write(text);
-  out.finish();
-}
-
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -266,9 +260,9 @@ int run_command_line(int argc, char** argv) {
   ArgumentReader reader(*program);
   reader.read(arguments_of(argc, argv));
   if (reader.has("--help")) {
-    print(help_text(reader.command()));
+    print_text(help_text(reader.command()));
   } else if (reader.has("--version")) {
-    print(fmt::format("piblocks {}\n", kVersion));
+    print_text(fmt::format("piblocks {}\n", kVersion));
   } else {
     reader.check();
     program->runs.at (&reader.command())();

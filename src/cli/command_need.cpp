@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <piblocks/two_blocks.hpp>
 
-#include <algorithm>
 #include <string>
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "cli/values.hpp"
+#include "draw/number_text.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -15,34 +15,12 @@ namespace {
 /// Significant digits of what is lost.
 constexpr int kLossDigits = 12;
 
-/// A number of [0, 1] with so many places after the point.
-std::string decimals(const Rational& value, int places) {
-  const Integer scaled = floor(value * power(10, static_cast<unsigned long>(places)));
-  std::string digits = scaled.get_str();
-  const auto length = static_cast<std::size_t>(places) + 1;
-  if (digits.size() < length) digits.insert(0, length - digits.size(), '0');
-  return digits.insert(1, ".");
-}
-
-/// How many places after the point the first digit of a number of ]0, 1] is that is not 0.
-int place_of_first_digit(const Rational& value) {
-  const auto length = [](const Integer& number) {
-    return static_cast<int>(mpz_sizeinbase(number.get_mpz_t(), 10));  // perhaps one too many
-  };
-  int places = std::max(0, length(value.get_den()) - length(value.get_num()) - 1);
-  while (value * power(10, static_cast<unsigned long>(places)) < 1) ++places;
-  return places;
-}
-
 /// As "{:g}" writes it, also if no double is so small.
 std::string loss_text(const Rational& loss) {
-  const int places = place_of_first_digit(loss);
-  constexpr int kMostDecimalPlaces = 4;
-  if (places <= kMostDecimalPlaces) return fmt::format("{:.{}g}", to_double(loss), kLossDigits);
-  const double mantissa = to_double(loss * power(10, static_cast<unsigned long>(places)));
-  const std::string digits = fmt::format("{:.{}g}", mantissa, kLossDigits);
-  if (digits == "10") return fmt::format("1e-{:02}", places - 1);
-  return fmt::format("{}e-{:02}", digits, places);
+  const auto [mantissa, exponent] = magnitude_of(loss);
+  constexpr long kLeastWithoutPower = -4;
+  if (exponent >= kLeastWithoutPower) return fmt::format("{:.{}g}", to_double(loss), kLossDigits);
+  return fmt::format("{:.{}g}e-{:02}", mantissa, kLossDigits, -exponent);
 }
 
 Integer count_with(const Rational& restitution, int digits, int base) {
@@ -55,18 +33,18 @@ Integer count_with(const Rational& restitution, int digits, int base) {
 int places_of(const LeastRestitution& need) {
   constexpr int kPlaces = 20;  // where any loss is too much
   const Rational loss = 1 - need.above;
-  return loss == 0 ? kPlaces : place_of_first_digit(loss) + kLossDigits - 1;
+  return loss == 0 ? kPlaces : static_cast<int>(kLossDigits - 1 - magnitude_of(loss).exponent);
 }
 
 void print_need(int digits, int base, TextOutput& out) {
   const LeastRestitution need = least_restitution(digits, base);
   const int places = places_of(need);
-  const Rational unit = 1 / power(10, static_cast<unsigned long>(places));
+  const Rational unit = power_of_ten(-places);
   // Rounded up: the decimal itself is enough, and the one before it is not.
   const Rational enough = 1 - floor(Rational((1 - need.above) / unit)) * unit;
   const Rational too_little = enough - unit;
   const auto text = [&](const Rational& restitution) {
-    return restitution == 1 ? "1" : decimals(restitution, places);
+    return restitution == 1 ? "1" : fixed_text(restitution, places);
   };
   const auto count = [&](const Rational& restitution) {
     return count_with(restitution, digits, base).get_str(base);
@@ -104,7 +82,7 @@ void add_need(Command& app) {
     const auto parse_base = [](const std::string& text) {
       return parse_int(text, kMinBase, kMaxBase);
     };
-    TextOutput out("-");
+    TextOutput out;
     print_need(*command.value("--digits", parse_digits),
                command.value("--base", parse_base).value_or(kUsualBase), out);
     out.finish();

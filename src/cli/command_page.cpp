@@ -2,6 +2,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
+#include <utility>
+
 #include "cli/command.hpp"
 #include "cli/live_page.hpp"
 #include "cli/options.hpp"
@@ -36,23 +38,15 @@ void check_page_scene(const Script& script) {
   const Film film(script);
 }
 
-void check_page_overwrites(const Command& options, const SceneOptions& scene, const Script& script,
-                           const LivePage& page) {
-  OverwriteCheck check;
-  scene.add_inputs(check, script);
-  check.reads("the live page", page.file);
-  const std::string output = output_of(options);
-  output == "-" ? check.writes_standard_output() : check.writes("--output", output);
-  check.check();
-}
-
 void run_page(const Command& options, const SceneOptions& scene) {
   check_page_options(options);
   const Script script = scene.script();
   scene.check_output(script);
   check_page_scene(script);
   const LivePage page = find_live_page();
-  check_page_overwrites(options, scene, script, page);
+  OverwriteCheck check;
+  check.reads("the live page", page.file);
+  scene.check_output(script, std::move(check));
   const StopOnSignals signals;
   OutputFile out(output_of(options));
   write_page(page, scene_toml(script), out);

@@ -16,11 +16,9 @@ namespace {
 
 void run_render(const Command& options, const SceneOptions& scene) {
   refuse_terminal(options);
-  const Destination* const destination = destination_of(options, output_of(options));
-  const RenderJob job = job_of(options, output_of(options), [&] {
-    if (destination == nullptr) return scene.script();
-    return scene.script(destination->defaults, fmt::format("--for {}", destination->name));
-  });
+  const RenderJob job = job_of(
+      options, output_of(options),
+      [&](const auto& defaults, const auto& origin) { return scene.script(defaults, origin); });
   OverwriteCheck check;
   scene.add_inputs(check, job.script);
   claim_outputs(check, job);
@@ -76,9 +74,9 @@ void run_join(const Command& options) {
   const std::string output = output_of(options);
   const Rendered joined = join(parts, output, signals.token(), options.is_given("--overwrite"));
   if (options.is_given("--quiet")) return;
-  say("{}: {} {} from {} {}{}\n", output == "-" ? "standard output" : output, joined.frame_count,
-      joined.frame_count == 1 ? "frame" : "frames", parts.size(),
-      parts.size() == 1 ? "part" : "parts", after_semicolon(joined.aftermath));
+  say("{}: {} from {}{}\n", output == "-" ? "standard output" : output,
+      counted(joined.frame_count, "frame"), counted(std::ssize(parts), "part"),
+      after_semicolon(joined.aftermath));
 }
 
 }  // namespace

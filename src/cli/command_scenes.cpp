@@ -4,22 +4,15 @@
 
 #include "cli/command.hpp"
 #include "cli/text_output.hpp"
-#include "core/output_file.hpp"
 #include "scene/shipped_scenes.hpp"
 
 namespace piblocks::cli {
 namespace {
 
-void print_file(const ShippedScene& scene) {
-  OutputFile out("-", OutputFile::Contents::text);
-  out.write(scene.text);
-  out.finish();
-}
-
 void list_scenes() {
   const auto length = [](const ShippedScene& scene) { return scene.name.size(); };
   const std::size_t width = std::ranges::max(shipped_scenes(), {}, length).name.size();
-  TextOutput out("-");
+  TextOutput out;
   for (const ShippedScene& scene : shipped_scenes()) {
     out.format_line("{:<{}}  {}", scene.name, width, scene.summary());
   }
@@ -38,7 +31,7 @@ void add_scenes(Command& app) {
       "  piblocks scenes lecture > my-lecture.toml");
   command.on_run([command] {
     const auto name = command.text("SCENE");
-    name ? print_file(find_shipped_scene(*name)) : list_scenes();
+    name ? print_text(find_shipped_scene(*name).text) : list_scenes();
   });
 }
 

@@ -107,8 +107,7 @@ class CheckPictures {
       lines.push_back(fmt::format("{}: '{}' has {}", references_.name(), folder_.string(), what));
     };
     if (kept > 0) {
-      say(fmt::format("expected, difference and actual of {} picture{}", kept,
-                      kept > 1 ? "s" : ""));
+      say("expected, difference and actual of " + counted(std::int64_t(kept), "picture"));
     }
     if (frames.empty()) return;
     say(fmt::format(

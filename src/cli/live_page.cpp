@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <vector>
 
 #include "core/descriptor.hpp"
 #include "core/own_binary.hpp"
@@ -23,22 +22,6 @@ constexpr std::string_view kMadeBy = R"(<meta name="generator" content="piblocks
 constexpr std::string_view kScene = R"(<script id="opened-scene" type="application/json">)";
 constexpr std::string_view kNoScene = "null";
 constexpr std::string_view kSceneEnd = "</script>";
-
-/// Where the page may be, best first. Never in the working folder: it is anybody's.
-std::vector<fs::path> candidates() {
-  const fs::path folder = PIBLOCKS_PAGE_FOLDER;
-  std::vector<fs::path> files;
-  const fs::path binary = own_binary();
-  if (binary.is_absolute()) {
-    files.push_back(binary.parent_path() / ".." / folder / kPageFile);
-    if (is_build_folder(binary.parent_path())) {
-      files.push_back(binary.parent_path() / PIBLOCKS_PAGE_FROM_BUILD);
-    }
-  }
-  files.push_back(fs::path(PIBLOCKS_PREFIX) / folder / kPageFile);
-  for (fs::path& file : files) file = file.lexically_normal();
-  return files;
-}
 
 std::string read_page(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -83,7 +66,9 @@ LivePage read_live_page(const fs::path& file) {
 
 LivePage find_live_page() {
   std::string reasons;
-  for (const fs::path& file : candidates()) {
+  for (const fs::path& place : places_of_installed(
+           PIBLOCKS_PREFIX, fs::path(PIBLOCKS_PAGE_FOLDER) / kPageFile, PIBLOCKS_PAGE_FROM_BUILD)) {
+    const fs::path file = place.lexically_normal();
     try {
       return read_live_page(file);
     } catch (const IoError& error) {

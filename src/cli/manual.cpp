@@ -11,7 +11,7 @@
 #include "cli/app.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "core/output_file.hpp"
+#include "cli/text_output.hpp"
 #include "scene/shipped_scenes.hpp"
 
 namespace piblocks::cli {
@@ -265,9 +265,7 @@ void run_manual(const Command& command) {
                                          {"zsh", zsh_completion},
                                          {"fish", fish_completion}});
   });
-  OutputFile out("-", OutputFile::Contents::text);
-  out.write(make_text(make_program()->app));
-  out.finish();
+  print_text(make_text(make_program()->app));
 }
 
 }  // namespace

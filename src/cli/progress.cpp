@@ -110,8 +110,8 @@ void ProgressReport::finish(const std::string& aftermath) {
   if (quiet_) return;
   if (std::exchange(bar_visible_, false)) say(kClearLine);
   const double duration_s = elapsed_s();
-  say("{}: {} {} in {:.2f} s ({:.0f} frames/s){}\n", subject(output_), progress_.frame_count,
-      progress_.frame_count == 1 ? "frame" : "frames", duration_s,
+  say("{}: {} in {:.2f} s ({:.0f} frames/s){}\n", subject(output_),
+      counted(progress_.frame_count, "frame"), duration_s,
       double(progress_.frame_count) / duration_s, after_semicolon(aftermath));
 }
 

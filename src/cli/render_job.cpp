@@ -59,8 +59,7 @@ std::optional<Bundle> bundle_of(const OptionTexts& options) {
   throw UsageError("--poster is for a bundle; add --bundle DIR or leave it out");
 }
 
-}  // namespace
-
+/// What --for names; null if it is not given. @throws UsageError if it does not suit the output.
 const Destination* destination_of(const OptionTexts& options, const std::string& output) {
   const auto found =
       options.value("--for", [](const std::string& name) { return &parse_destination(name); });
@@ -69,11 +68,15 @@ const Destination* destination_of(const OptionTexts& options, const std::string&
   return *found;
 }
 
+}  // namespace
+
 RenderJob job_of(const OptionTexts& options, const std::string& output,
-                 const std::function<Script()>& make_script) {
+                 const MakeScript& make_script) {
   const Destination* const destination = destination_of(options, output);
   EncoderSettings settings = settings_of(options);
-  Script script = make_script();
+  Script script = destination == nullptr ? make_script({}, {})
+                                         : make_script(destination->defaults,
+                                                       fmt::format("--for {}", destination->name));
   if (destination != nullptr && !settings.encoder && has_ending(output, ".mov")) {
     settings.encoder = destination->mov_encoder;
   }

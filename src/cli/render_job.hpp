@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "cli/destination.hpp"
 #include "cli/option_texts.hpp"
@@ -13,14 +14,15 @@
 
 namespace piblocks::cli {
 
-/// What --for names; null if it is not given. @throws UsageError if it does not suit the output.
-const Destination* destination_of(const OptionTexts& options, const std::string& output);
+/// Makes a script. @param defaults  win over its file. @param origin  of these, named in messages
+using MakeScript =
+    std::function<Script(const std::vector<SceneDefault>& defaults, const std::string& origin)>;
 
-/// The job, with the settings that suit its destination.
+/// The job, with the settings that suit the destination that --for names.
 /// @param make_script  called once, when the options before it have been read.
 /// @throws UsageError, or what make_script() throws
 RenderJob job_of(const OptionTexts& options, const std::string& output,
-                 const std::function<Script()>& make_script);
+                 const MakeScript& make_script);
 
 /// What is written, for messages.
 std::string name_of(const RenderJob& job);

@@ -25,7 +25,7 @@ namespace {
 
 /// All collisions, or those until --to; of two blocks and a wall all are counted without a log.
 void run_count(const Command& options, const SceneOptions& scene_options) {
-  TextOutput out("-");
+  TextOutput out;
   const Scene scene = scene_options.scene();
   const std::optional<Instant> to = options.value("--to", parse_instant);
   std::unique_ptr<Log> log;
@@ -53,7 +53,7 @@ void run_state(const Command& options, const SceneOptions& scene_options) {
   const bool has_bounds = options.is_given("--bounds");
   const Table states = state_table(scene.system, has_bounds);
   const std::unique_ptr<Log> log = make_log(scene, options);
-  TextOutput out("-");
+  TextOutput out;
   Integer last = 0;
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);

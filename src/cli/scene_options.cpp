@@ -185,8 +185,7 @@ void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const
   claim_logos(check, script);
 }
 
-void SceneOptions::check_output(const Script& script) const {
-  OverwriteCheck check;
+void SceneOptions::check_output(const Script& script, OverwriteCheck check) const {
   add_inputs(check, script);
   const std::string output = output_of(command_);
   output == "-" ? check.writes_standard_output() : check.writes("--output", output);

@@ -44,8 +44,9 @@ class SceneOptions {
                 const std::string& origin = {}) const;
   /// Adds the scene file, and the logos of what was made of it.
   void add_inputs(OverwriteCheck& check, const Script& script) const;
-  /// @throws UsageError if --output names the scene file or a logo of the script.
-  void check_output(const Script& script = {}) const;
+  /// @param check  has what else is read.
+  /// @throws UsageError if --output names that, the scene file or a logo of the script.
+  void check_output(const Script& script = {}, OverwriteCheck check = {}) const;
 
  private:
   /// An option that sets a key of the scene file to its text, or to a fixed one.

@@ -1,7 +1,7 @@
 // Text for people and for programs.
 // In: text and values; what a terminal cannot show in them is escaped. Out: messages on standard
-// error, if it can be written: work does not fail because a terminal was closed. Lines to a file or
-// to standard output, in large writes: a failed write is an exception, but nothing is said to a
+// error, if it can be written: work does not fail because a terminal was closed. Lines to standard
+// output, in large writes: a failed write is an exception, but nothing is said to a
 // reader that has gone away.
 #pragma once
 
@@ -49,11 +49,15 @@ void say(fmt::format_string<const Values&...> format, const Values&... values) n
   }
 }
 
+/// Writes a text to standard output as it is. @throws IoError, ReaderGone
+inline void print_text(std::string_view text) {
+  OutputFile out("-", OutputFile::Contents::text);
+  out.write(text);
+  out.finish();
+}
+
 class TextOutput {
  public:
-  /// @param name  a file, which appears when it is finished, or "-".
-  explicit TextOutput(const std::string& name) : file_(name, OutputFile::Contents::text) {}
-
   void line(std::string_view text) {
     buffer_.append(text.data(), text.data() + text.size());
     end_line();
@@ -89,7 +93,7 @@ class TextOutput {
     if (buffer_.size() >= kFlush_bytes) flush();
   }
 
-  OutputFile file_;
+  OutputFile file_{"-", OutputFile::Contents::text};
   fmt::memory_buffer buffer_;
   bool has_reader_ = true;
 };

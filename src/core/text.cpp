@@ -84,6 +84,10 @@ std::string with_single_blanks(std::string_view line) {
   return words;
 }
 
+std::string counted(std::int64_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string with_short_words(std::string_view text) {
   constexpr std::size_t kMaxWord = 300;
   constexpr std::size_t kKept = 100;  // at either end

@@ -39,6 +39,9 @@ std::string shortened(std::string_view text);
 /// The words of a line, with one blank between them; empty if it has none.
 std::string with_single_blanks(std::string_view line);
 
+/// "1 frame", "2 frames". @param what  one of them
+std::string counted(std::int64_t count, std::string_view what);
+
 /// Whether a name has this file extension, in small letters or in capitals.
 /// @param ending  in small letters, such as ".png".
 constexpr bool has_ending(std::string_view name, std::string_view ending) {

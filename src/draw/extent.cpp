@@ -19,9 +19,6 @@ constexpr double kOverhang = 0.22;
 /// How far a centred line reaches beyond the outline it is drawn on.
 double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }
 
-/// Beyond its centre.
-double reach_of(const DiscItem& disc) { return disc.radius + reach_of(disc.stroke); }
-
 struct ExtentOf {
   const MeasureText& width_em;
 
@@ -37,7 +34,11 @@ struct ExtentOf {
   Rect operator()(const ExposedBlocksItem& item) const {
     return extent_of(item.behind) | extent_of(item.front);
   }
-  Rect operator()(const MovingShapesItem& item) const { return extent_of(item); }
+  Rect operator()(const MovingShapesItem& item) const {
+    Rect extent = extent_of(item.shapes.front());
+    for (const MovingShape& moving : item.shapes) extent = extent | extent_of(moving);
+    return extent;
+  }
   /// The line of a rectangle is inside its bounds.
   Rect operator()(const auto& item) const { return item.bounds; }
 };
@@ -104,6 +105,8 @@ bool may_cross(const PathItem& path, const Rect& extent) {
 
 }  // namespace
 
+double reach_of(const DiscItem& disc) { return disc.radius + reach_of(disc.stroke); }
+
 Rect extent_of(const ExposedBlock& block) {
   Rect extent = block.bounds;
   if (block.is_still()) return extent;
@@ -121,12 +124,6 @@ Rect extent_of(const MovingShape& moving) {
   }
   const Rect& bounds = std::get<ExposedBlock>(moving.shape).bounds;
   return {places.x, bounds.y, places.width + bounds.width, bounds.height};
-}
-
-Rect extent_of(const MovingShapesItem& item) {
-  Rect extent = extent_of(item.shapes.front());
-  for (const MovingShape& moving : item.shapes) extent = extent | extent_of(moving);
-  return extent;
 }
 
 Rect extent_of(const TextItem& text, double left_em, double right_em) {

@@ -22,8 +22,10 @@ inline constexpr double kDiscStep_px = 1.0 / 8;
 /// Width of a line of text, in ems.
 using MeasureText = std::function<double(Face face, std::string_view utf8)>;
 
+/// From a disc's centre to the outside of its line.
+double reach_of(const DiscItem& disc);
+
 Rect extent_of(const ExposedBlock& block);
-Rect extent_of(const MovingShapesItem& item);
 Rect extent_of(const MovingShape& moving);
 /// The characters of a line of text between two distances from its origin.
 Rect extent_of(const TextItem& text, double left_em, double right_em);

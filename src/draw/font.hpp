@@ -4,7 +4,6 @@
 
 #include <cairo.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -52,10 +51,6 @@ class Font {
   void check(std::string_view utf8, const char* what) const;
   /// Width of a line of text, in ems.
   double width_em(std::string_view utf8) const;
-  /// The size, at most `size_px`, at which a line of text is no wider than `width_px`.
-  double fitted_px(std::string_view utf8, double size_px, double width_px) const {
-    return std::min(size_px, width_px / width_em(utf8));
-  }
 
  private:
   bool has_glyph(std::uint32_t code) const;

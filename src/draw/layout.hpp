@@ -181,5 +181,7 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
 
 /// The sum of mass · velocity² of all bodies that move, which never changes.
 Rational twice_energy(const System& system);
+/// Of all bodies that move; 0 if none does.
+Rational heaviest_mass(const System& system);
 
 }  // namespace piblocks

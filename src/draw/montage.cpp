@@ -23,7 +23,7 @@ constexpr double kBetweenLines = 0.8;
 
 double fitted_px(const std::string& text, double size_px, double width_px, const Font& font) {
   font.check(text, "card");
-  const double fitted = font.fitted_px(text, size_px, width_px);
+  const double fitted = std::min(size_px, width_px / font.width_em(text));
   if (fitted >= kLeastShrink * size_px) return fitted;
   throw UsageError(fmt::format(
       "card: '{}' is too long to be read in {:.0f} pixels; break it into lines, or make the frame "

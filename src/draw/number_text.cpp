@@ -185,12 +185,4 @@ std::string tick_text(double value, double step) {
   return multiple == 0 ? text : text + "×" + power_text(std::lround(exponent));
 }
 
-Rational round_step(const Rational& least) {
-  const Rational power = power_of_ten(magnitude_of(least).exponent);
-  for (const int factor : {1, 2, 5}) {
-    if (factor * power >= least) return factor * power;
-  }
-  return 10 * power;
-}
-
 }  // namespace piblocks

@@ -79,9 +79,6 @@ Ticks with_room_for_figures(Ticks ticks, const FigureAxis& axis, const Font& fon
 /// With the step's decimals, or its power of ten if they are many: "−0.25", "5×10⁹".
 std::string tick_text(double value, double step);
 
-/// The smallest step >= least, exactly. @param least  > 0
-Rational round_step(const Rational& least);
-
 /// Half of the height of figures.
 inline constexpr double kHalfFigure_em = 0.365;
 

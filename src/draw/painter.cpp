@@ -34,11 +34,6 @@ CairoSurfacePtr premultiplied(const Image& image) {
   return surface;
 }
 
-/// From a disc's centre to the outside of its line.
-double reach_of(const DiscItem& disc) {
-  return disc.radius + (disc.stroke ? disc.stroke->width_px / 2 : 0);
-}
-
 /// Whether the plates have the same pixels, wherever they are.
 bool has_same_pixels(const PlateItem& a, const PlateItem& b) {
   return a.bounds.width == b.bounds.width && a.bounds.height == b.bounds.height &&

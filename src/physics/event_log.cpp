@@ -1,15 +1,14 @@
 #include <fmt/format.h>
-#include <gmp.h>
-#include <mpfr.h>
 #include <piblocks/error.hpp>
-#include <piblocks/event_simulator.hpp>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "physics/block_motion.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/logs.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks {
 namespace {
@@ -22,29 +21,6 @@ struct StoredCollision {
   BlockMotion red;
 };
 using StoredCollisions = std::vector<StoredCollision>;
-
-using Simulator = EventSimulator<double, 1>;
-using Vector = Simulator::Body::Vector;
-
-// In this order a corner hit begins with the blocks: see EventSimulator.
-constexpr std::size_t kBlue = 0;
-constexpr std::size_t kRed = 1;
-
-Simulator::Body body_of(const Block& block) {
-  return {.mass = to_double(block.mass),
-          .radius = to_double(block.width / 2),
-          .position = Vector(to_double(block.position)),
-          .velocity = Vector(to_double(block.velocity))};
-}
-
-/// The article's wall: an immovable body of radius 1/2 whose far side is the face.
-Simulator::Body wall_of(const TwoBlocks& system) {
-  return {.mass = kInfiniteMass<double>,
-          .radius = 0.5,
-          .position = Vector(to_double(system.wall_face - Rational(1, 2)))};
-}
-
-BlockMotion motion_of(const Simulator::Body& body) { return {body.position[0], body.velocity[0]}; }
 
 /// Records collisions, and stops an engine that finds many more than there are.
 class Recorder {
@@ -77,15 +53,21 @@ class Recorder {
 };
 
 /// The article's event loop.
-StoredCollisions event_loop(const TwoBlocks& system) {
-  Simulator simulator({body_of(system.blue), body_of(system.red), wall_of(system)});
-  Recorder recorder{ExactMotion(system)};
-  while (const auto event = simulator.step()) {
-    const bool blocks = event->second == kRed;
-    recorder.record({{event->time, 0},
-                     blocks ? CollisionKind::blocks : CollisionKind::wall,
-                     motion_of(simulator.particles()[kBlue]),
-                     motion_of(simulator.particles()[kRed])});
+StoredCollisions event_loop(const TwoBlocks& blocks) {
+  const System system = system_of(blocks);
+  const auto stepper = make_event_stepper(system);
+  Recorder recorder{ExactMotion(blocks)};
+  // Blue, red and the wall.
+  std::array<BlockMotion, 3> bodies = {motion_of(blocks.blue), motion_of(blocks.red)};
+  double now = 0;
+  while (const auto step = stepper->step()) {
+    for (BlockMotion& body : bodies) body.position += body.velocity * (step->time.hi - now);
+    now = step->time.hi;
+    bodies.at(step->first) = {step->first_after.position[0], step->first_after.velocity[0]};
+    bodies.at(step->second) = {step->second_after.position[0], step->second_after.velocity[0]};
+    const bool is_at_wall = step->second == system.bodies.size();
+    recorder.record({step->time, is_at_wall ? CollisionKind::wall : CollisionKind::blocks,
+                     bodies[0], bodies[1]});
   }
   return recorder.take();
 }

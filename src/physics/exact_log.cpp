@@ -1,10 +1,10 @@
-#include <piblocks/contact.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include "physics/block_motion.hpp"
+#include "physics/exact_line.hpp"
 #include "physics/logs.hpp"
 
 namespace piblocks {
@@ -20,45 +20,23 @@ struct ExactCollision {
   TwoBlocks blocks;
 };
 
-void advance(TwoBlocks& system, const Rational& duration) {
-  system.blue.position += system.blue.velocity * duration;
-  system.red.position += system.red.velocity * duration;
-}
-
-void collide_blocks(TwoBlocks& system) {
-  Block& blue = system.blue;
-  Block& red = system.red;
-  const Rational closing = blue.velocity - red.velocity;
-  blue.velocity -= velocity_change(closing, share_of_change(blue.mass, red.mass));
-  red.velocity += velocity_change(closing, share_of_change(red.mass, blue.mass));
-}
-
-/// Performs the next collision.
-std::optional<ExactCollision> next_after(const Rational& time, TwoBlocks now) {
-  const auto to_wall = time_to_contact(now.blue_gap(), Rational(-now.blue.velocity));
-  const auto to_blocks =
-      time_to_contact(now.blocks_gap(), Rational(now.blue.velocity - now.red.velocity));
-  if (!to_wall && !to_blocks) return std::nullopt;
-  const bool blocks = to_blocks && (!to_wall || *to_blocks <= *to_wall);
-  const Rational& wait = blocks ? *to_blocks : *to_wall;
-  advance(now, wait);
-  if (blocks) {
-    collide_blocks(now);
-  } else {
-    now.blue.velocity = -now.blue.velocity;
-  }
-  return ExactCollision{time + wait, blocks ? CollisionKind::blocks : CollisionKind::wall,
-                        std::move(now)};
-}
-
-std::vector<ExactCollision> run(const TwoBlocks& system) {
+/// From time 0 on.
+std::vector<ExactCollision> run(TwoBlocks blocks) {
+  ExactLine line(system_of(blocks));
+  const LineElement& blue = line.elements()[1];  // beside the wall
+  const LineElement& red = line.elements()[2];
   std::vector<ExactCollision> events;
-  for (auto event = next_after(0, system); event;
-       event = next_after(events.back().time, events.back().blocks)) {
+  while (const auto step = line.step()) {
     if (events.size() == kMaxEvents) {
       throw SimulationError("exact events: more collisions than a light red block can have");
     }
-    events.push_back(*event);
+    blocks.blue.position = blue.position_at(line.time());
+    blocks.blue.velocity = blue.velocity;
+    blocks.red.position = red.position_at(line.time());
+    blocks.red.velocity = red.velocity;
+    const bool is_at_wall = step->second != red.id;
+    events.push_back(
+        {line.time(), is_at_wall ? CollisionKind::wall : CollisionKind::blocks, blocks});
   }
   return events;
 }
@@ -128,7 +106,8 @@ class ExactLog final : public PairLog {
     const auto next = happened(time);
     const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
     TwoBlocks blocks = since.blocks;
-    advance(blocks, time - since.time);
+    blocks.blue.position += blocks.blue.velocity * (time - since.time);
+    blocks.red.position += blocks.red.velocity * (time - since.time);
     return blocks;
   }
   /// The end of those that have happened.

@@ -206,11 +206,6 @@ PairExposure InelasticLog::expose(const Rational& from, const Rational& to) cons
   return is_listed ? PairLog::expose(from, to) : sliced(*this, from, to, std::move(start));
 }
 
-PairExposure expose(const PairLog& log, const Rational& begin, const Rational& end) {
-  const auto& [first, last] = std::minmax(begin, end);
-  return log.expose(first, last);
-}
-
 Exposure expose(const Log& log, const Rational& begin, const Rational& end) {
   if (end < begin) return expose(log, end, begin);
   if (const PairLog* const pair = log.pair()) {

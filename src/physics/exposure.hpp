@@ -95,11 +95,6 @@ struct Exposure {
 /// @throws as Log::state_at().
 Exposure expose(const Log& log, const Rational& begin, const Rational& end);
 
-/// The interval between two times, in either order, and also before time 0. Valid after its log is
-/// gone.
-/// @throws SimulationError as PairLog::blocks_collision().
-PairExposure expose(const PairLog& log, const Rational& begin, const Rational& end);
-
 /// Collects pieces from instant to instant.
 class PieceList {
  public:

@@ -30,7 +30,6 @@ class UnfoldedLog final : public PairLog {
   std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const override;
   Integer count_near(const Time& time) const override;
-  /// As in exposure.hpp, for first <= last.
   PairExposure expose(const Rational& first, const Rational& last) const override;
 
  private:

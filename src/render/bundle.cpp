@@ -2,12 +2,12 @@
 #include <piblocks/error.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "core/file_set.hpp"
+#include "core/input_file.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
 #include "render/renderings.hpp"
@@ -106,11 +106,7 @@ void write_texts(const RenderJob& job, const std::string& alt, std::string_view 
 /// Whether the folder has the bundle of an earlier run.
 bool has_bundle(const fs::path& folder) {
   const std::string_view expected = kLatex.substr(0, kLatex.find('{'));
-  std::error_code unknown;
-  if (!fs::is_regular_file(folder / kLatexFile, unknown)) return false;  // a pipe would block
-  std::string found(expected.size(), '\0');
-  std::ifstream(folder / kLatexFile, std::ios::binary).read(found.data(), std::ssize(found));
-  return found == expected;
+  return beginning_of(folder / kLatexFile, expected.size()) == expected;
 }
 
 /// Checks all but the video, whose name the user has chosen.

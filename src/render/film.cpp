@@ -94,20 +94,20 @@ FilmRun::FilmRun(Scene scene, std::unique_ptr<const Log> log, FilmUse use)
 }
 
 DrawList FilmRun::picture(const FrameTime& shown, const Rational& speed,
-                          const VideoTime* video_time) const {
+                          const std::optional<VideoTime>& video_time) const {
   Rational last = shown.time;
   for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
   require_certain(scene_, *log_, last);
-  const FrameNeeds& needs = composition_->needs();
-  return composition_->frame(video_time == nullptr
-                                 ? frame_state(*log_, shown, needs, speed)
-                                 : frame_state(*log_, shown, needs, speed, *video_time));
+  return composition_->frame(frame_state(*log_, shown, composition_->needs(), speed, video_time));
+}
+
+DrawList FilmRun::picture_at(const Schedule& schedule, const Rational& video_s) const {
+  return picture(schedule.at(video_s, open_s(scene_.view)), schedule.speed(),
+                 VideoTime{schedule, video_s});
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
-  const VideoTime video_time{schedule, Rational(to_integer(number)) / scene_.view.frame_rate};
-  return picture(schedule.at(video_time.video_s, open_s(scene_.view)), schedule.speed(),
-                 &video_time);
+  return picture_at(schedule, Rational(to_integer(number)) / scene_.view.frame_rate);
 }
 
 std::vector<DrawList> FilmRun::stills(std::span<const Rational> times,
@@ -123,15 +123,22 @@ std::vector<DrawList> FilmRun::stills(std::span<const Rational> times,
   std::vector<DrawList> pictures;
   for (const Rational& time : times) {
     const auto video_s = schedule ? schedule->first_shown_s(time) : std::nullopt;
-    if (video_s) {
-      const VideoTime video_time{*schedule, *video_s};
-      pictures.push_back(picture(schedule->at(*video_s, open_s(scene_.view)), speed, &video_time));
-    } else {
-      pictures.push_back(picture(frame_time_alone(scene_, log(), time, speed), speed, nullptr));
-    }
+    pictures.push_back(
+        video_s ? picture_at(*schedule, *video_s)
+                : picture(frame_time_alone(scene_, log(), time, speed), speed, std::nullopt));
     on_picture();
   }
   return pictures;
+}
+
+DrawList FilmRun::still(const Instant& instant) const {
+  const Rational time = time_of(instant, log());
+  return std::move(stills({&time, 1}, [] {}).front());
+}
+
+FilmRun run_of(const Scene& scene, const std::stop_token& stop) {
+  require_valid(problems_of(scene));
+  return {scene, log_of(scene, stop), FilmUse::pictures};
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {

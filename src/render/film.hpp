@@ -55,19 +55,24 @@ class FilmRun {
   /// @param on_picture  called after each.
   std::vector<DrawList> stills(std::span<const Rational> times,
                                const std::function<void()>& on_picture) const;
-  DrawList still(const Rational& time) const {
-    return std::move(stills({&time, 1}, [] {}).front());
-  }
+  /// The same of one instant.
+  DrawList still(const Instant& instant) const;
 
  private:
   /// @param speed  simulation time per second of video
   DrawList picture(const FrameTime& shown, const Rational& speed,
-                   const VideoTime* video_time) const;
+                   const std::optional<VideoTime>& video_time) const;
+  DrawList picture_at(const Schedule& schedule, const Rational& video_s) const;
 
   Scene scene_;
   std::unique_ptr<const Log> log_;
   std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
 };
+
+/// The run of a scene without a film: a still may show what no film can.
+/// @throws SceneError if problems_of() the scene is not empty; as FilmRun; SimulationError,
+///         Interrupted
+FilmRun run_of(const Scene& scene, const std::stop_token& stop = {});
 
 /// Nothing if the scene shows none.
 /// @throws UsageError, MediaError if the file cannot be read, or is no PNG.

@@ -161,32 +161,7 @@ bool is_moving(const VideoTime& video_time) {
   return std::prev(next)->speed != 0;
 }
 
-}  // namespace
-
-FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
-                       const Rational& speed) {
-  constexpr std::size_t kMostCorners = 100;
-  FrameState state{
-      .state = log.state_at(shown.time), .time = shown.time, .slowdown = shown.slowdown};
-  for (const TimeSlice& slice : shown.exposure) {
-    state.exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
-  }
-  if (needs.gaps) state.gaps = log.pair()->gaps_at(shown.time);
-  if (needs.trail_s > 0) {
-    const Rational from = std::max<Rational>(0, shown.time - speed * needs.trail_s);
-    state.trails = log.paths(from, shown.time, kMostCorners);
-  }
-  return state;
-}
-
-FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
-                       const Rational& speed, const VideoTime& video_time) {
-  FrameState state = frame_state(log, shown, needs, speed);
-  state.video_s = to_double(video_time.video_s);
-  if (needs.hits) add_hits(state, log, video_time);
-  return state;
-}
-
+/// Adds the hits and their rate to what is shown at that time.
 void add_hits(FrameState& state, const Log& log, const VideoTime& video_time) {
   const auto passed = [&](const Rational& length_s) {
     return passages(log, video_time, state.state.count,
@@ -213,6 +188,26 @@ void add_hits(FrameState& state, const Log& log, const VideoTime& video_time) {
   for (auto aged = found.rbegin(); aged != found.rend(); ++aged) {
     if (aged->age_s < kHitLife_s) state.hits.push_back(hit_of(log, *aged));
   }
+}
+
+}  // namespace
+
+FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
+                       const Rational& speed, const std::optional<VideoTime>& video_time) {
+  constexpr std::size_t kMostCorners = 100;
+  FrameState state{
+      .state = log.state_at(shown.time), .time = shown.time, .slowdown = shown.slowdown};
+  for (const TimeSlice& slice : shown.exposure) {
+    state.exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
+  }
+  if (needs.gaps) state.gaps = log.pair()->gaps_at(shown.time);
+  if (needs.trail_s > 0) {
+    const Rational from = std::max<Rational>(0, shown.time - speed * needs.trail_s);
+    state.trails = log.paths(from, shown.time, kMostCorners);
+  }
+  if (video_time) state.video_s = to_double(video_time->video_s);
+  if (video_time && needs.hits) add_hits(state, log, *video_time);
+  return state;
 }
 
 }  // namespace piblocks

@@ -2,6 +2,8 @@
 // In: a log, and what a frame shows of time. Out: the FrameState of that frame.
 #pragma once
 
+#include <optional>
+
 #include "draw/composition.hpp"
 #include "scene/schedule.hpp"
 
@@ -13,20 +15,13 @@ struct VideoTime {
   Rational video_s;  ///< >= 0
 };
 
-/// State, time, exposure, and what else is needed; no hits.
-/// @param speed  of the video where nothing slows it down, in simulation time per second
-FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
-                       const Rational& speed);
-
-/// The same of a picture that is shown at this time of a video, with its hits if they are needed.
+/// State, time, exposure, and what else is needed. A hit is a change of the counter: forwards at
+/// the collision's time, backwards just after it. The state at the scene's first instant includes
+/// collisions that are no hits.
+/// @param speed       of the video where nothing slows it down, in simulation time per second
+/// @param video_time  of a picture in a video; without it there are no hits
 /// @throws SimulationError as the log's collision().
 FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
-                       const Rational& speed, const VideoTime& video_time);
-
-/// Adds the hits and their rate to what is shown at that time. A hit is a
-/// change of the counter: forwards at the collision's time, backwards just after it. The state at
-/// the scene's first instant includes collisions that are no hits.
-/// @throws SimulationError as the log's collision().
-void add_hits(FrameState& state, const Log& log, const VideoTime& video_time);
+                       const Rational& speed, const std::optional<VideoTime>& video_time = {});
 
 }  // namespace piblocks

@@ -1,7 +1,6 @@
 #include "render/references.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
@@ -117,13 +116,9 @@ void References::draw(
     const std::stop_token& stop) const {
   if (frames.empty()) return;
   const Film film(script_, {FilmUse::pictures, stop});
-  const View& view = view_of(script_);
-  Canvas canvas(view.width_px, view.height_px, view.background);
-  canvas.listen(stop);
   for (const std::int64_t frame : frames) {
     check_stop(stop);
-    canvas.update(film.frame(frame));
-    use(frame, encode_png(canvas.view()));
+    use(frame, draw_png(film.frame(frame), stop));
   }
 }
 

@@ -53,15 +53,6 @@ void write_picture(OutputFile& file, const Bytes& picture, const std::stop_token
   file.finish();
 }
 
-FilmRun run_of(const Scene& scene, const std::stop_token& stop) {
-  require_valid(problems_of(scene));
-  return {scene, log_of(scene, stop), FilmUse::pictures};
-}
-
-DrawList picture_of(const FilmRun& run, const Instant& instant) {
-  return run.still(time_of(instant, run.log()));
-}
-
 /// A4, landscape, in points, and in pixels of 200 to the inch.
 constexpr int kPageWidth_pt = 842;
 constexpr int kPageHeight_pt = 595;
@@ -175,14 +166,13 @@ std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& 
 }
 
 DrawList still_picture(const Film& film, const Instant& instant) {
-  if (film.scene() != nullptr) return picture_of(film.scene()->runs().front(), instant);
+  if (film.scene() != nullptr) return film.scene()->runs().front().still(instant);
   return film.frame(frame_at(film, instant));
 }
 
 DrawList still_picture(const Script& script, const Instant& instant, const std::stop_token& stop) {
-  // No film is made of a scene: a still may show what no film can.
   const auto* const scene = std::get_if<Scene>(&script);
-  return scene != nullptr ? picture_of(run_of(*scene, stop), instant)
+  return scene != nullptr ? run_of(*scene, stop).still(instant)
                           : still_picture(Film(script, {FilmUse::pictures, stop}), instant);
 }
 

@@ -55,15 +55,12 @@ std::string collision_words(const TwoBlocks& system) {
 
 /// "3 blocks", "200 discs"
 std::string bodies_of(const System& system) {
-  const std::size_t count = system.bodies.size();
-  const char* const name = system.dimensions == 1 ? "block" : "disc";
-  return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
+  return counted(std::ssize(system.bodies), system.dimensions == 1 ? "block" : "disc");
 }
 
 std::string describe_bodies(const System& system, const VideoCount& count) {
-  const std::size_t walls = system.walls.size();
   const std::string place =
-      walls == 0 ? std::string() : fmt::format(", with {} wall{}", walls, walls == 1 ? "" : "s");
+      system.walls.empty() ? "" : ", with " + counted(std::ssize(system.walls), "wall");
   return fmt::format(
       "{} {} {} without friction{}. All collisions are elastic, and a counter reaches {}.",
       bodies_of(system), system.bodies.size() == 1 ? "moves" : "move",

@@ -274,23 +274,30 @@ void show_all(const System& system, View& view) {
   }
 }
 
+Values coordinates_of(const ExactVector& vector, int dimensions) {
+  Values texts = {vector[0].get_str()};
+  if (dimensions == 2) texts.push_back(vector[1].get_str());
+  return texts;
+}
+
+std::string color_text(const BodyStyle& style) {
+  if (!style.color) return {};
+  const auto& [red, green, blue] = *style.color;
+  return fmt::format("#{:02x}{:02x}{:02x}", red, green, blue);
+}
+
 std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& scene) {
   const System& system = scene.system;
   std::vector<std::pair<std::string, std::string>> lines;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const Body& body = system.bodies[i];
     const BodyStyle& style = scene.styles[i];
-    std::string color;
-    if (style.color) {
-      const auto& [r, g, b] = *style.color;
-      color = fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
-    }
     lines.emplace_back(
         fmt::format("body {}", i + 1),
         fmt::format("{} {} at {} with {}, size {}, color '{}', label '{}'",
                     system.dimensions == 1 ? "block" : "disc",
                     body.mass ? body.mass->get_str() : "inf", text_of(body.position),
-                    text_of(body.velocity), body.size.get_str(), color, style.label));
+                    text_of(body.velocity), body.size.get_str(), color_text(style), style.label));
   }
   for (const Wall& wall : system.walls) {
     lines.emplace_back(fmt::format("{} wall", wall.name),

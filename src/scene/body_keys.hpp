@@ -67,6 +67,12 @@ std::size_t number_in(std::string_view text, std::string_view beginning);
 /// The least range of both axes that shows the box, or the bodies at time 0, with a margin.
 void show_all(const System& system, View& view);
 
+/// As many coordinates as there are dimensions, as exact texts.
+Values coordinates_of(const ExactVector& vector, int dimensions);
+
+/// "#1f77b4"; empty if the scene gives no colour.
+std::string color_text(const BodyStyle& style);
+
 /// The bodies and walls as exact text, in the order of describe().
 std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& scene);
 

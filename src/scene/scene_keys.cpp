@@ -36,18 +36,6 @@ FrameSize parse_size(const Values& values) {
   return {parse_side(sides[0]), parse_side(sides[1])};
 }
 
-/// A list, or one text with commas.
-Values list_of(const Values& values) {
-  if (values.size() != 1) return values;
-  Values list;
-  std::istringstream text(values.front());
-  for (std::string value; std::getline(text >> std::ws, value, ',');) {
-    value.erase(value.find_last_not_of(" \t") + 1);
-    list.push_back(value);
-  }
-  return list;
-}
-
 /// Parses each value of a list; messages name the one that is wrong.
 template <typename Value>
 std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_view text)) {
@@ -257,6 +245,17 @@ bool is_film_key(std::string_view key) {
   constexpr std::array<std::string_view, 5> kOfFilm = {"view.size", "view.fps", "view.background",
                                                        "view.theme", "sound.on"};
   return key.starts_with("golden.") || std::ranges::count(kOfFilm, key) > 0;
+}
+
+Values list_of(const Values& values) {
+  if (values.size() != 1) return values;
+  Values list;
+  std::istringstream text(values.front());
+  for (std::string value; std::getline(text >> std::ws, value, ',');) {
+    value.erase(value.find_last_not_of(" \t") + 1);
+    list.push_back(value);
+  }
+  return list;
 }
 
 const std::string& single(const Values& values) {

@@ -31,6 +31,9 @@ bool is_short_key(std::string_view key);
 /// Whether the key is for a whole film and not for a segment of a storyboard.
 bool is_film_key(std::string_view key);
 
+/// The values of a list, or those in one text with commas.
+Values list_of(const Values& values);
+
 /// The value of a key that takes one. @throws UsageError if there are more.
 const std::string& single(const Values& values);
 

@@ -60,8 +60,7 @@ Values values_of(const SceneKey& key, const Scene& scene) {
 }
 
 std::string vector_of(const ExactVector& vector, int dimensions) {
-  if (dimensions == 1) return scalar(vector[0].get_str());
-  return value_of({vector[0].get_str(), vector[1].get_str()});
+  return value_of(coordinates_of(vector, dimensions));
 }
 
 std::string body_text(const Scene& scene, std::size_t number) {
@@ -73,10 +72,7 @@ std::string body_text(const Scene& scene, std::size_t number) {
                   scalar(body.mass ? body.mass->get_str() : "inf"),
                   vector_of(body.position, dimensions), vector_of(body.velocity, dimensions),
                   dimensions == 1 ? "width" : "radius", scalar(body.size.get_str()));
-  if (style.color) {
-    const auto& [red, green, blue] = *style.color;
-    text += fmt::format(", color = \"#{:02x}{:02x}{:02x}\"", red, green, blue);
-  }
+  if (style.color) text += ", color = " + toml_string(color_text(style));
   if (!style.label.empty()) text += ", label = " + toml_string(style.label);
   return text + " }";
 }

@@ -67,8 +67,6 @@ class Soundtrack {
   /// @throws UsageError if stretches do not begin at 0 s, or are not in the film's order.
   Soundtrack(std::vector<Voice> voices, const Rational& duration_s);
 
-  /// Pairs of samples: the film's duration, to the nearest.
-  std::int64_t size() const noexcept { return size_; }
   /// Writes the next samples, left and right in turn, from -1 to 1.
   /// @return how many pairs; less than there is room for only at the end.
   /// @throws SimulationError as PairLog::state_at().
@@ -79,7 +77,7 @@ class Soundtrack {
   StereoSample next_limited();
 
   Rational duration_s_;
-  std::int64_t size_;
+  std::int64_t size_;  // pairs: the duration, to the nearest
   std::vector<Voice> voices_;
   std::size_t begun_ = 0;        // of the voices
   std::int64_t next_begin_ = 0;  // pair with which the next one begins

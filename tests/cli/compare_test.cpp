@@ -16,15 +16,6 @@ class CompareTest : public CompareFixture {
   void write_picture(const std::string& name, const std::string& size = "160x90") const {
     output_of({"still", "--size", size, "--at", "1", "-o", name});
   }
-  /// The names in a folder, sorted.
-  std::vector<std::string> entries_of(const std::string& folder) const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_ / folder)) {
-      names.push_back(entry.path().filename());
-    }
-    std::ranges::sort(names);
-    return names;
-  }
   /// A second of 12 frames, unless the options say otherwise.
   void render(const std::string& output, const Arguments& more = {}) const {
     Arguments arguments = Arguments{"render", "--quiet", "--size", "160x90", "-o", output} + more;
@@ -64,9 +55,9 @@ TEST_F(CompareTest, NamesTheFrameThatDiffers) {
   EXPECT_EQ(result.err, "");
   ASSERT_EQ(lines(result.out).size(), 2U) << result.out;
   EXPECT_TRUE(result.out.starts_with("0007.png: ")) << result.out;
-  EXPECT_NE(result.out.find(" pixels differ, largest delta "), std::string::npos);
-  EXPECT_NE(result.out.find(", first at x="), std::string::npos);
-  EXPECT_NE(result.out.find(", densest 16x16 window at x="), std::string::npos);
+  EXPECT_TRUE(contains(result.out, " pixels differ, largest delta "));
+  EXPECT_TRUE(contains(result.out, ", first at x="));
+  EXPECT_TRUE(contains(result.out, ", densest 16x16 window at x="));
   EXPECT_TRUE(result.out.ends_with("different: 1 of 12 frames differ\n"));
   EXPECT_EQ(verdict({"a", "b", "--max-delta", "255"}, 0),
             "accepted: 1 of 12 frames differ, 0 beyond tolerance");
@@ -79,7 +70,7 @@ TEST_F(CompareTest, FindsAnotherVideoAndOtherHashes) {
   render("a.mp4");
   render("b.mp4", {"--from", "1/100"});
   EXPECT_EQ(verdict({"a.mp4", "b.mp4"}, 1), "different: 12 of 12 frames differ");
-  EXPECT_NE(compare({"a.mp4", "b.mp4"}).out.find("frame 0: "), std::string::npos);
+  EXPECT_TRUE(contains(compare({"a.mp4", "b.mp4"}).out, "frame 0: "));
   render("a.framehash");
   render("b.framehash");
   std::string text = contents("b.framehash");
@@ -118,9 +109,9 @@ TEST_F(CompareTest, ExitCodesAreInTheOrderOfSeverity) {
   write("b/3.png", "no picture");
   EXPECT_EQ(code(), 5);
   for (const char* name : {"1.png", "2.png", "3.png", "4.png"}) {
-    EXPECT_NE(contents("r.xml").find(std::string("name=\"") + name), std::string::npos) << name;
+    EXPECT_TRUE(contains(contents("r.xml"), std::string("name=\"") + name)) << name;
   }
-  EXPECT_NE(contents("r.xml").find("tests=\"4\" failures=\"2\" errors=\"1\""), std::string::npos);
+  EXPECT_TRUE(contains(contents("r.xml"), "tests=\"4\" failures=\"2\" errors=\"1\""));
 }
 
 /// A report that says that all is well is never left beside a failure.
@@ -154,9 +145,9 @@ TEST_F(CompareTest, ReportsAreWrittenWhateverIsFound) {
     EXPECT_EQ(compare(Arguments{"a/1.png", "a/1.png"} + reports).exit_code, 0);
     const CommandResult result = compare(sides + reports);
     EXPECT_EQ(result.exit_code, code) << result.out << result.err;
-    EXPECT_EQ(contents("r.xml").find("failures=\"0\" errors=\"0\""), std::string::npos);
-    EXPECT_NE(contents("r.xml").find(sides[1] + " against " + sides[0]), std::string::npos);
-    EXPECT_NE(contents("r.html").find("class=\"refused\""), std::string::npos);
+    EXPECT_FALSE(contains(contents("r.xml"), "failures=\"0\" errors=\"0\""));
+    EXPECT_TRUE(contains(contents("r.xml"), sides[1] + " against " + sides[0]));
+    EXPECT_TRUE(contains(contents("r.html"), "class=\"refused\""));
   }
 }
 
@@ -176,20 +167,16 @@ TEST_F(CompareTest, TheMostSevereAreShownFirstEverywhere) {
   EXPECT_EQ(one.exit_code, 1);
   EXPECT_TRUE(one.out.starts_with("45.png: ")) << one.out;
   EXPECT_EQ(lines(one.out).size(), 42U) << "40 frames, how many more, and the verdict";
-  EXPECT_NE(one.out.find("\n… and 11 more\n"), std::string::npos) << one.out;
+  EXPECT_TRUE(contains(one.out, "\n… and 11 more\n"));
   const std::string page = contents("r.html");
   EXPECT_LT(page.find("<h2>45.png</h2>"), page.find("<h2>0.png</h2>"));
-  EXPECT_EQ(entries_of("d"), (std::vector<std::string>{"000045.png"}));
+  EXPECT_EQ(names_in("d"), (Names{"000045.png"}));
   // All of them are different now.
   EXPECT_EQ(compare({"a", "b", "--report", "r.html", "--diff", "d"}).exit_code, 1);
-  EXPECT_EQ(entries_of("d").size(), 40U);
+  EXPECT_EQ(names_in("d").size(), 40U);
   const std::string all = contents("r.html");
-  std::size_t pictures = 0;
-  for (auto at = all.find("<img"); at != std::string::npos; at = all.find("<img", at + 1)) {
-    ++pictures;
-  }
-  EXPECT_EQ(pictures, 3 * 40U);
-  EXPECT_NE(all.find("<b>50.png</b>"), std::string::npos) << "the others are named";
+  EXPECT_EQ(count_of(all, "<img"), 3 * 40U);
+  EXPECT_TRUE(contains(all, "<b>50.png</b>")) << "the others are named";
 }
 
 TEST_F(CompareTest, NamesOfBothSidesAreSaidOnce) {
@@ -226,16 +213,14 @@ TEST_F(CompareTest, MissingAndUnreadableInputsAreTold) {
   EXPECT_EQ(complaint({"none/%d.png", "a"}, 3),
             "piblocks: compare: there is no file of 'none/%d.png'\n");
   EXPECT_EQ(complaint({"a", "none.png"}, 5), "piblocks: compare: there is no 'none.png'\n");
-  EXPECT_NE(complaint({"a/0001.png", "no.png"}, 5).find("cannot read 'no.png'"), std::string::npos);
-  EXPECT_NE(complaint({"a", "no.mp4"}, 5).find("cannot read 'no.mp4'"), std::string::npos);
-  EXPECT_NE(complaint({"a", "no.mp4", "--quiet"}, 5).find("'no.mp4'"), std::string::npos);
-  EXPECT_NE(complaint({"no.framehash", "no.framehash"}, 5).find("line 1 is no hash"),
-            std::string::npos);
+  expect_complaint({"a/0001.png", "no.png"}, "cannot read 'no.png'");
+  expect_complaint({"a", "no.mp4"}, "cannot read 'no.mp4'");
+  expect_complaint({"a", "no.mp4", "--quiet"}, "'no.mp4'");
+  expect_complaint({"no.framehash", "no.framehash"}, "line 1 is no hash");
   std::string longer = "#format: frame checksums\n";
   for (int line = 0; line < 2'000'000; ++line) longer += "0,0,0,1,1,0\n";
   write("long.framehash", longer);
-  EXPECT_NE(complaint({"long.framehash", "long.framehash"}, 5).find("more than 2000000 lines"),
-            std::string::npos);
+  expect_complaint({"long.framehash", "long.framehash"}, "more than 2000000 lines");
 }
 
 TEST_F(CompareTest, WrongUsageIsToldFromDifference) {
@@ -266,13 +251,12 @@ TEST_F(CompareTest, LeavesPicturesAPageAndAListOfTests) {
   EXPECT_TRUE(contents("d/e/000006.png").starts_with("\x89PNG"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "d/e"), {}), 2);
   const std::string page = contents("r.html");
-  EXPECT_NE(page.find("<h2>0003.png</h2>"), std::string::npos);
-  EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos);
-  EXPECT_EQ(page.find("http"), std::string::npos);
+  EXPECT_TRUE(contains(page, "<h2>0003.png</h2>"));
+  EXPECT_TRUE(contains(page, "data:image/png;base64,iVBOR"));
+  EXPECT_FALSE(contains(page, "http"));
   const std::string tests = contents("r.xml");
-  EXPECT_NE(tests.find("tests=\"12\" failures=\"2\""), std::string::npos);
-  EXPECT_NE(tests.find("name=\"0007.png\">\n      <failure type=\"different\" message=\""),
-            std::string::npos);
+  EXPECT_TRUE(contains(tests, "tests=\"12\" failures=\"2\""));
+  EXPECT_TRUE(contains(tests, "name=\"0007.png\">\n      <failure type=\"different\" message=\""));
 }
 
 /// One that is broken off must not leave the green page of an earlier one.
@@ -289,7 +273,7 @@ TEST_F(CompareTest, RemovesReportsOfAnEarlierComparisonAtOnce) {
   EXPECT_TRUE(fs::is_symlink(folder_ / "r.xml"));
   write("r.html", "mine");
   for (const char* option : {"--report", "--junit"}) {
-    EXPECT_NE(complaint({"a.png", "a.png", option, "-"}, 2).find("name a file"), std::string::npos);
+    EXPECT_TRUE(contains(complaint({"a.png", "a.png", option, "-"}, 2), "name a file"));
   }
   complaint({"a.png", "a.png", "--report", "r.html", "--max-delta", "x"}, 2);
   EXPECT_EQ(contents("r.html"), "mine") << "nothing has begun";
@@ -305,11 +289,11 @@ TEST_F(CompareTest, ReplacesPicturesOfAnEarlierComparisonAndNoOthers) {
   write("d/notes.txt", "mine");
   fs::copy(folder_ / "a/0003.png", folder_ / "b/0003.png", fs::copy_options::overwrite_existing);
   EXPECT_EQ(compare({"a", "b", "--diff", "d"}).exit_code, 1);
-  EXPECT_EQ(entries_of("d"), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
+  EXPECT_EQ(names_in("d"), (Names{"000006.png", "000009.png", "notes.txt"}));
   still("b/0010.png", "0.51");  // its difference is 000009.png
-  EXPECT_NE(complaint({"a", "b", "--diff", "d"}, 2).find("'d/000009.png'"), std::string::npos);
+  EXPECT_TRUE(contains(complaint({"a", "b", "--diff", "d"}, 2), "'d/000009.png'"));
   EXPECT_EQ(contents("d/000009.png"), contents("a/0001.png"));
-  EXPECT_EQ(entries_of("d"), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
+  EXPECT_EQ(names_in("d"), (Names{"000006.png", "000009.png", "notes.txt"}));
 }
 
 /// Only root can mount a file system.
@@ -323,8 +307,8 @@ TEST_F(CompareTest, AFullDiskUnderTheReportIsNoUnreadableInput) {
   const std::string diff = complaint({"a.png", "b.png", "--diff", "d"}, 1);
   const std::string report = complaint({"a.png", "b.png", "--report", "d/r.html"}, 1);
   ::umount2(disk.c_str(), MNT_DETACH);
-  EXPECT_NE(diff.find("000000.png': No space left on device"), std::string::npos) << diff;
-  EXPECT_NE(report.find("r.html': No space left on device"), std::string::npos) << report;
+  EXPECT_TRUE(contains(diff, "000000.png': No space left on device"));
+  EXPECT_TRUE(contains(report, "r.html': No space left on device"));
 }
 
 TEST_F(CompareTest, NamesOfAnyBytesMakeReportsThatCanBeRead) {
@@ -341,17 +325,14 @@ TEST_F(CompareTest, NamesOfAnyBytesMakeReportsThatCanBeRead) {
   const std::string read_name =
       "import sys, xml.etree.ElementTree as xml; sys.stdout.buffer.write("
       "xml.parse(sys.argv[1]).find('.//testcase').get('name').encode())";
-  const std::string command = "python3 -c \"" + read_name + "\" '" + (folder_ / "r.xml") + "' > '" +
-                              (folder_ / "name") + "'";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(contents("name"), shown);
+  EXPECT_EQ(shell("python3 -c \"" + read_name + "\" r.xml"), shown);
 }
 
 TEST_F(CompareTest, NoPicturesAreLeftOfWhatIsEqual) {
   render("a/%04d.png");
   EXPECT_EQ(compare({"a", "a", "--diff", "d", "--junit", "r.xml"}).exit_code, 0);
   EXPECT_TRUE(fs::is_empty(folder_ / "d"));
-  EXPECT_NE(contents("r.xml").find("tests=\"12\" failures=\"0\""), std::string::npos);
+  EXPECT_TRUE(contains(contents("r.xml"), "tests=\"12\" failures=\"0\""));
 }
 
 // 1 would say that they differ.

@@ -31,16 +31,13 @@ class ConventionTest : public CliFixture {
   }
 };
 
-TEST_F(ConventionTest, TheBlocksMeetFirstWhereBlueRestsOnTheWall) {
-  const CommandResult count = run(kRestingOnTheWall, kCount);
-  EXPECT_EQ(count.out, "31\n");
-  EXPECT_EQ(count.err, kBlocksFirst);
-}
-
-TEST_F(ConventionTest, TheWallIsFirstWhereTheBlocksArriveTogether) {
-  const CommandResult count = run(kArrivingTogether, kCount);
-  EXPECT_EQ(count.out, "31\n");
-  EXPECT_EQ(count.err, kWallFirst);
+TEST_F(ConventionTest, SaysWhoIsFirst) {
+  for (const auto& [scene, note] :
+       {std::pair(kRestingOnTheWall, kBlocksFirst), {kArrivingTogether, kWallFirst}}) {
+    const CommandResult count = run(scene, kCount);
+    EXPECT_EQ(count.out, "31\n");
+    EXPECT_EQ(count.err, note);
+  }
 }
 
 TEST_F(ConventionTest, NeedsNoNoteInAnOrdinaryScene) {
@@ -79,9 +76,7 @@ TEST_F(ConventionTest, TheNoteIsNoPartOfTheOutput) {
 
 TEST_F(ConventionTest, AFailureIsNotExplainedByIt) {
   write("scene.toml", kRestingOnTheWall);
-  const CommandResult result = piblocks({"state", "scene.toml", "--at", "#32"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+  EXPECT_EQ(lines(refusal({"state", "scene.toml", "--at", "#32"})).size(), 1u);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST_P(InterruptionsTest, LeaveNothingBehind) {
   const CommandResult result = command.wait();
   EXPECT_EQ(result.exit_code, -GetParam().signal) << "a shell would go on with its loop";
   EXPECT_EQ(result.err, "piblocks: " + GetParam().arguments.front() + ": interrupted\n");
-  EXPECT_EQ(entries(), (std::vector<std::string>{}));
+  EXPECT_EQ(entries(), Names{});
 }
 INSTANTIATE_TEST_SUITE_P(
     Signals, InterruptionsTest,
@@ -88,7 +88,7 @@ TEST_F(InterruptionTest, AnOldFileSurvives) {
   command.send(SIGINT);
   EXPECT_EQ(command.wait().exit_code, -SIGINT);
   EXPECT_EQ(contents("a.mp4"), "old");
-  EXPECT_EQ(entries(), (std::vector<std::string>{"a.mp4"}));
+  EXPECT_EQ(entries(), (Names{"a.mp4"}));
 }
 
 /// A reader that takes nothing holds the program in a write; the second signal does not wait.
@@ -146,7 +146,7 @@ TEST_F(InterruptionTest, OtherSignalsChangeNothing) {
   const CommandResult result = command.wait();
   EXPECT_EQ(result.exit_code, -SIGTERM);
   EXPECT_EQ(result.err, "piblocks: render: interrupted\n");
-  EXPECT_EQ(entries(), (std::vector<std::string>{}));
+  EXPECT_EQ(entries(), Names{});
 }
 
 /// As nohup starts it.

@@ -10,7 +10,6 @@
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
-using Names = std::vector<std::string>;
 
 const std::string kStart = "<script id=\"opened-scene\" type=\"application/json\">";
 const std::string kEnd = "</script>";
@@ -87,8 +86,7 @@ class LivePageTest : public CliFixture {
   }
 
   CommandResult run(const Arguments& arguments) const {
-    return testing_support::run_command(arguments,
-                                        {.folder = folder_.path(), .program = bin() / "piblocks"});
+    return piblocks(arguments, {.program = bin() / "piblocks"});
   }
   /// The page that the program writes, when all is well.
   std::string written(const Arguments& arguments) const {
@@ -118,7 +116,7 @@ class LivePageTest : public CliFixture {
     const Names before = entries();
     const CommandResult result = run(Arguments{"page", "-o", "a.html"} + arguments);
     EXPECT_EQ(result.exit_code, exit_code);
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_TRUE(contains(result.err, message));
     EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(contents("a.html"), "what was there");
@@ -288,18 +286,17 @@ TEST_F(LivePageTest, IsNotWrittenOverWhatItIsMadeOf) {
                                      {"scene.html", "the scene file"}}) {
     const CommandResult result = run({"page", "./scene.html", "-o", output});
     EXPECT_EQ(result.exit_code, 2) << output;
-    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+    EXPECT_TRUE(contains(result.err, what));
   }
   EXPECT_TRUE(testing_support::file_contents(page_file()) == kPage);
   EXPECT_EQ(contents("scene.html"), "digits = 2\n");
 }
 
 TEST_F(LivePageTest, AFullDiskLeavesNothing) {
-  const CommandResult result = testing_support::run_command(
-      {"page", "-o", "-"},
-      {.folder = folder_.path(), .out_file = "/dev/full", .program = bin() / "piblocks"});
+  const CommandResult result =
+      piblocks({"page", "-o", "-"}, {.out_file = "/dev/full", .program = bin() / "piblocks"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("No space left"), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, "No space left"));
   EXPECT_EQ(entries(), Names{});
 }
 

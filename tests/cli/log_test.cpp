@@ -11,14 +11,6 @@ using LogTest = CliFixture;
 
 constexpr const char* kHeader = "index,time,kind,x_blue,x_red,v_blue,v_red";
 
-/// The first column of CSV text.
-std::vector<std::string> indices(const std::string& csv) {
-  std::vector<std::string> found;
-  for (const std::string& line : lines(csv)) found.push_back(split(line, ',').front());
-  found.erase(found.begin());  // the header
-  return found;
-}
-
 TEST_F(LogTest, PrintsTheCollisionsOfEqualMasses) {
   EXPECT_EQ(output_of({"log", "--digits", "1"}), std::string(kHeader) +
                                                      "\n1,2,blocks,2,3,-1,0"
@@ -76,11 +68,10 @@ TEST_F(LogTest, BoundsOfTimeIncludeWhatHappensAtThem) {
 }
 
 TEST_F(LogTest, BoundsMayBeAnyInstant) {
-  EXPECT_EQ(indices(output_of({"log", "--from", "#312"})),
-            (std::vector<std::string>{"312", "313", "314"}));
-  EXPECT_EQ(indices(output_of({"log", "--from", "last-1"})), std::vector<std::string>{"314"});
+  EXPECT_EQ(indices(output_of({"log", "--from", "#312"})), (Names{"312", "313", "314"}));
+  EXPECT_EQ(indices(output_of({"log", "--from", "last-1"})), Names{"314"});
   EXPECT_EQ(indices(output_of({"log", "--from", "turn", "--to", "#160-1/1000000"})),
-            (std::vector<std::string>{"158", "159"}));
+            (Names{"158", "159"}));
 }
 
 // However many happen at once: none of them is asked for its time.
@@ -91,8 +82,7 @@ TEST_F(LogTest, BoundsOfTimeIncludeAllThatHappensAtOnce) {
   };
   for (const char* digits : {"2", "5", "20", "150"}) {
     for (const char* from : {"3.5", "turn"}) {
-      EXPECT_EQ(rows({"--digits", digits, "--from", from, "--limit", "2"}),
-                (std::vector<std::string>{"1", "2"}))
+      EXPECT_EQ(rows({"--digits", digits, "--from", from, "--limit", "2"}), (Names{"1", "2"}))
           << digits << " digits from " << from;
     }
   }
@@ -109,9 +99,9 @@ TEST_F(LogTest, GoesOnBeforeTimeZero) {
   EXPECT_EQ(before[304], "-9");
   EXPECT_EQ(before.back(), "0");
   EXPECT_EQ(indices(output_of({"log", "recede.toml", "--first", "-11", "--limit", "3"})),
-            (std::vector<std::string>{"-11", "-10", "-9"}));
-  EXPECT_NE(output_of({"state", "recede.toml", "--at", "#-7"}).find("\"collisions\":\"-7\""),
-            std::string::npos);
+            (Names{"-11", "-10", "-9"}));
+  EXPECT_TRUE(
+      contains(output_of({"state", "recede.toml", "--at", "#-7"}), "\"collisions\":\"-7\""));
 }
 
 TEST_F(LogTest, SelectsByIndexAndLimit) {

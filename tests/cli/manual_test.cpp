@@ -1,6 +1,4 @@
 // The manual page and what shells need to complete options, asked as these programs would.
-#include <cstdlib>
-
 #include "cli/cli_fixture.hpp"
 
 namespace piblocks {
@@ -8,12 +6,11 @@ namespace {
 
 class ManualTest : public CliFixture {
  protected:
-  /// What a shell's command prints, in the test's folder.
+  /// What a command prints that complains of nothing.
   std::string shell(const std::string& command) {
-    const std::string all = "cd '" + folder_.path().string() + "' && " + command + " > out 2> err";
-    EXPECT_EQ(std::system(all.c_str()), 0) << command << '\n' << contents("err");
-    EXPECT_EQ(contents("err"), "");
-    return contents("out");
+    const std::string printed = CliFixture::shell(command + " 2>errors");
+    EXPECT_EQ(contents("errors"), "");
+    return printed;
   }
 
   /// What bash offers for the last of these words.
@@ -37,7 +34,7 @@ TEST_F(ManualTest, TheManualPageHasEveryOption) {
   for (const char* part :
        {"PIBLOCKS(1)", "piblocks render", "piblocks golden check", "--slow-motion", "turn-0.3",
         "--max-delta", "Example: piblocks render", "EXIT STATUS"}) {
-    EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_TRUE(contains(page, part));
   }
 }
 
@@ -61,9 +58,9 @@ TEST_F(ManualTest, BashCompletesNamesAndFilesOfScenes) {
 TEST_F(ManualTest, ZshAndFishReadTheirs) {
   for (const std::string program : {"zsh", "fish"}) {
     const std::string text = output_of({"manual", program});
-    EXPECT_NE(text.find("slow-motion"), std::string::npos);
-    EXPECT_NE(text.find("chalkboard dark"), std::string::npos);
-    EXPECT_NE(text.find("slow-turn storyboard"), std::string::npos);
+    EXPECT_TRUE(contains(text, "slow-motion"));
+    EXPECT_TRUE(contains(text, "chalkboard dark"));
+    EXPECT_TRUE(contains(text, "slow-turn storyboard"));
     write("completion", text);
     if (is_there(program)) shell(program + " -n completion");
   }
@@ -79,19 +76,16 @@ TEST_F(ManualTest, ZshAndFishReadTheirs) {
 }
 
 TEST_F(ManualTest, OtherKindsAreRefused) {
-  const CommandResult result = piblocks({"manual", "tcsh"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err, "piblocks: KIND tcsh: must be one of: man, bash, zsh, fish\n");
+  EXPECT_EQ(refusal({"manual", "tcsh"}),
+            "piblocks: KIND tcsh: must be one of: man, bash, zsh, fish\n");
 }
 
 TEST_F(ManualTest, HelpIsACommandToo) {
   EXPECT_EQ(output_of({"help"}), output_of({"--help"}));
   EXPECT_EQ(output_of({"help", "golden", "check"}), output_of({"golden", "check", "--help"}));
-  const CommandResult bare = piblocks({});
-  EXPECT_EQ(bare.exit_code, 2);
-  EXPECT_EQ(bare.out, "");
-  EXPECT_EQ(bare.err, output_of({"--help"}));
-  EXPECT_NE(bare.err.find("Example: piblocks render --digits 3 -o pi-3.mp4"), std::string::npos);
+  const std::string bare = refusal({});
+  EXPECT_EQ(bare, output_of({"--help"}));
+  EXPECT_TRUE(contains(bare, "Example: piblocks render --digits 3 -o pi-3.mp4"));
 }
 
 }  // namespace

@@ -1,8 +1,5 @@
 // log --format npy: the bytes of the file, and what NumPy makes of them.
-#include <fmt/format.h>
-
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 
 #include "cli/cli_fixture.hpp"
@@ -15,9 +12,7 @@ class NpyTest : public CliFixture {
   /// What `python3 -c PROGRAM` does in the test's folder.
   bool python(const std::string& interpreter, const std::string& program) const {
     write("program.py", program);
-    const std::string command = fmt::format("cd '{}' && {} program.py >python.txt 2>&1",
-                                            folder_.path().string(), interpreter);
-    return std::system(command.c_str()) == 0;
+    return shell(interpreter + " program.py >python.txt 2>&1 && echo done || true") == "done\n";
   }
   /// A Python that has NumPy; empty if there is none. Debian's own may hide behind another one.
   std::string python_with_numpy() const {

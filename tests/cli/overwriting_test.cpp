@@ -55,7 +55,7 @@ TEST_P(OverwritingTest, IsRefusedBeforeAnythingIsWritten) {
   const auto before = state();
   const CommandResult result = piblocks(split(GetParam().command, ' '));
   EXPECT_EQ(result.exit_code, 2) << result.out;
-  EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, GetParam().message));
   EXPECT_EQ(result.out, "");
   EXPECT_TRUE(state() == before);
 }
@@ -120,11 +120,11 @@ class AppendingTest : public CliFixture {};
 TEST_F(AppendingTest, ToWhatIsReadIsRefused) {
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "a.png"});
   const std::string before = contents("a.png");
-  const CommandResult result = testing_support::run_command(
-      {"compare", "a.png", "a.png"},
-      {.folder = folder_.path(), .out_file = folder_ / "a.png", .out_flags = O_WRONLY | O_APPEND});
+  const CommandResult result =
+      piblocks({"compare", "a.png", "a.png"},
+               {.out_file = folder_ / "a.png", .out_flags = O_WRONLY | O_APPEND});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("standard output: would write over the reference"), std::string::npos);
+  EXPECT_TRUE(contains(result.err, "standard output: would write over the reference"));
   EXPECT_EQ(contents("a.png"), before);
 }
 
@@ -134,9 +134,7 @@ TEST_F(AppendingTest, ToTheSceneIsRefused) {
        {Arguments{"count", "scene.toml"}, Arguments{"log", "scene.toml"},
         Arguments{"state", "scene.toml", "--at", "1"}}) {
     const CommandResult result =
-        testing_support::run_command(arguments, {.folder = folder_.path(),
-                                                 .out_file = folder_ / "scene.toml",
-                                                 .out_flags = O_WRONLY | O_APPEND});
+        piblocks(arguments, {.out_file = folder_ / "scene.toml", .out_flags = O_WRONLY | O_APPEND});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(contents("scene.toml"), kScene);
   }

@@ -7,7 +7,6 @@ namespace piblocks {
 namespace {
 
 using RenderTest = CliFixture;
-using Names = std::vector<std::string>;
 
 constexpr std::size_t kFrame_bytes = 6 + 64 * 36 * 3 / 2;  // "FRAME\n" and 4:2:0
 
@@ -40,7 +39,7 @@ TEST_F(RenderTest, WritesEveryKind) {
   EXPECT_TRUE(contents("new/folder/000001.png").starts_with("\x89PNG"));
   EXPECT_TRUE(contents("a.y4m").starts_with("YUV4MPEG2 W64 H36 F10:1 "));
   EXPECT_EQ(y4m_frames(contents("a.y4m")), 2u);
-  EXPECT_NE(contents("a.framehash").find("#dimensions 0: 64x36"), std::string::npos);
+  EXPECT_TRUE(contains(contents("a.framehash"), "#dimensions 0: 64x36"));
 }
 
 TEST_F(RenderTest, AGifHasNoMoreFramesThanItCanShow) {
@@ -51,12 +50,12 @@ TEST_F(RenderTest, AGifHasNoMoreFramesThanItCanShow) {
     return result;
   };
   const CommandResult fifty = gif_of("50");
-  EXPECT_EQ(fifty.err.find("note"), std::string::npos) << fifty.err;
+  EXPECT_FALSE(contains(fifty.err, "note"));
   const std::string bytes = contents("a.gif");
   for (const char* fps : {"60", "60000/1001", "120", "1000"}) {
     SCOPED_TRACE(fps);
-    EXPECT_NE(gif_of(fps).err.find("piblocks: note: 'a.gif' shows at most 50 frames a second"),
-              std::string::npos);
+    EXPECT_TRUE(
+        contains(gif_of(fps).err, "piblocks: note: 'a.gif' shows at most 50 frames a second"));
     EXPECT_TRUE(contents("a.gif") == bytes);
   }
 }
@@ -74,12 +73,11 @@ TEST_F(RenderTest, NamesPlayersThatPromiseLessThanTheVideoNeeds) {
       "--fps\n";
   for (const char* name : {"a.mp4", "a.mov"}) {
     EXPECT_TRUE(errors_of("3840x2160", "60", {"-o", name}).ends_with(note)) << name;
-    EXPECT_EQ(errors_of("3840x2160", "30", {"-o", name}).find("note"), std::string::npos) << name;
+    EXPECT_FALSE(contains(errors_of("3840x2160", "30", {"-o", name}), "note")) << name;
   }
-  EXPECT_NE(errors_of("64x2306", "30", {"-o", "a.mp4"}).find("H.264 of 64x2306 at level"),
-            std::string::npos);
+  EXPECT_TRUE(contains(errors_of("64x2306", "30", {"-o", "a.mp4"}), "H.264 of 64x2306 at level"));
   EXPECT_EQ(errors_of("3840x2160", "60", {"--quiet", "-o", "a.mp4"}), "");
-  EXPECT_EQ(errors_of("3840x2160", "60", {"-o", "a.apng"}).find("note"), std::string::npos);
+  EXPECT_FALSE(contains(errors_of("3840x2160", "60", {"-o", "a.apng"}), "note"));
 }
 
 TEST_F(RenderTest, StandardOutputGetsTheBytesOfTheFile) {
@@ -165,7 +163,7 @@ TEST_F(RenderTest, EncoderOptionsReachTheEncoder) {
   EXPECT_EQ(contents("builtin.mp4"), contents("default.mp4"));
   EXPECT_NE(contents("builtin.mp4"), contents("fast.mp4"));
   output_of(two + Arguments{"--smallest", "-o", "smallest.mp4"});
-  EXPECT_NE(contents("smallest.mp4").find("x264 - core"), std::string::npos);
+  EXPECT_TRUE(contains(contents("smallest.mp4"), "x264 - core"));
 }
 
 TEST_F(RenderTest, SaysWhatItWroteUnlessQuiet) {

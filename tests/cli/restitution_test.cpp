@@ -17,12 +17,6 @@ class RestitutionTest : public CliFixture {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result.out;
   }
-  std::vector<std::string> indices(const Arguments& log) const {
-    std::vector<std::string> found;
-    for (const std::string& row : lines(rows_of(log))) found.push_back(split(row, ',').front());
-    found.erase(found.begin());  // the header
-    return found;
-  }
 };
 
 TwoBlocks lossy(int digits, const Rational& blocks, const Rational& wall) {
@@ -50,7 +44,7 @@ TEST_F(RestitutionTest, TheOptionSetsThatOfBlocksAndWall) {
 
 TEST_F(RestitutionTest, EveryCommandWithSceneOptionsHasIt) {
   for (const char* command : {"render", "still", "sheet", "state", "log", "count"}) {
-    EXPECT_NE(output_of({command, "--help"}).find("--restitution E"), std::string::npos) << command;
+    EXPECT_TRUE(contains(output_of({command, "--help"}), "--restitution E")) << command;
   }
   output_of({"still", "--restitution", "0.99", "--at", "last", "--size", "64x36", "-o", "a.png"});
 }
@@ -74,7 +68,7 @@ TEST_F(RestitutionTest, StatesSayThatCollisionsAreInfinitelyMany) {
   ASSERT_EQ(states.size(), 5u);
   std::vector<std::string> counts;
   for (const std::string& state : states) counts.push_back(json_value(state, {"collisions"}));
-  EXPECT_EQ(counts, (std::vector<std::string>{"0", "1", "7", "infinite", "infinite"}));
+  EXPECT_EQ(counts, (Names{"0", "1", "7", "infinite", "infinite"}));
   EXPECT_EQ(json_value(states.back(), {"red", "velocity"}), "0");
   // A run that ends has a number.
   const auto ended = output_of({"state", "--digits", "1", "--restitution", "0.5", "--at", "last"});
@@ -90,7 +84,7 @@ TEST_F(RestitutionTest, ALogSaysThatItIsNotAll) {
                          "rest at t = 3.530"),
             0u)
       << log.err;
-  EXPECT_NE(log.err.find("lists the first " + listed.get_str()), std::string::npos) << log.err;
+  EXPECT_TRUE(contains(log.err, "lists the first " + listed.get_str()));
   output_of({"log", "--digits", "1", "--restitution", "0.5"});  // says nothing
   const std::string beyond = Integer(listed + 1).get_str();
   const std::string lists = "infinitely many collisions, of which the log lists ";
@@ -104,8 +98,8 @@ TEST_F(RestitutionTest, APageSaysInfinitelyMany) {
             kEndless);
   const std::string page = contents("a.html");
   const Integer listed = collapse_of(lossy(2, Rational(1, 2), Rational(1, 2)))->listed;
-  EXPECT_EQ(page.find(listed.get_str() + " collisions"), std::string::npos);
-  EXPECT_NE(page.find("a counter reaches infinitely many collisions"), std::string::npos);
+  EXPECT_FALSE(contains(page, listed.get_str() + " collisions"));
+  EXPECT_TRUE(contains(page, "a counter reaches infinitely many collisions"));
 }
 
 TEST_F(RestitutionTest, CountsUntilAnInstant) {
@@ -139,13 +133,13 @@ TEST_F(RestitutionTest, ALogFromTheCornerHasAllThatHappensInIt) {
   write("elastic-wall.toml", "digits = 1\nblocks.restitution = 0\n");
   write("lossy-wall.toml", "digits = 1\nblocks.restitution = 0\nwall.restitution = 0.5\n");
   for (const char* scene : {"elastic-wall.toml", "lossy-wall.toml"}) {
-    const auto all = indices({"log", scene});
+    const auto all = indices(rows_of({"log", scene}));
     ASSERT_GE(all.size(), 3u);
-    const auto corner = indices({"log", scene, "--from", "5"});
+    const auto corner = indices(rows_of({"log", scene, "--from", "5"}));
     EXPECT_EQ(corner, (std::vector(all.begin() + 1, all.end()))) << scene;
-    EXPECT_EQ(indices({"log", scene, "--from", "2"}), all);
-    EXPECT_EQ(indices({"log", scene, "--from", "2.5"}), corner);
-    EXPECT_EQ(indices({"log", scene, "--from", "5.001"}).size(), 0u);
+    EXPECT_EQ(indices(rows_of({"log", scene, "--from", "2"})), all);
+    EXPECT_EQ(indices(rows_of({"log", scene, "--from", "2.5"})), corner);
+    EXPECT_EQ(indices(rows_of({"log", scene, "--from", "5.001"})).size(), 0u);
   }
   // The wall takes all of blue's speed at t = 7/2; collision 3 is the first in the corner.
   write("dead-wall.toml",
@@ -160,7 +154,8 @@ TEST_F(RestitutionTest, ALogFromTheCornerHasAllThatHappensInIt) {
   for (const auto& event : run.events) {
     const auto since = std::size_t(std::ranges::count_if(
         run.events, [&](const auto& other) { return other.time >= event.time; }));
-    EXPECT_EQ(indices({"log", "dead-wall.toml", "--from", event.time.get_str()}).size(), since);
+    EXPECT_EQ(indices(rows_of({"log", "dead-wall.toml", "--from", event.time.get_str()})).size(),
+              since);
   }
 }
 

@@ -58,18 +58,14 @@ TEST_F(ScenesTest, AreTakenByEveryCommandThatTakesASceneFile) {
   output_of(Arguments{"render", "equal-masses", "--quiet", "-o", "a.framehash"} + small);
   output_of(Arguments{"sheet", "equal-masses", "-o", "a.svg"} + small);
   output_of({"golden", "record", "equal-masses", "--dir", "golden", "--frames", "last"});
-  EXPECT_EQ(entries(), (std::vector<std::string>{"a.framehash", "a.svg", "golden",
-                                                 "golden/equal-masses-last.png",
-                                                 "golden/equal-masses.framehash"}));
+  EXPECT_EQ(entries(), (Names{"a.framehash", "a.svg", "golden", "golden/equal-masses-last.png",
+                              "golden/equal-masses.framehash"}));
   EXPECT_EQ(output_of({"golden", "check", "equal-masses", "--dir", "golden", "--frames", "last"}),
             "equal-masses: equal\n");
 }
 
-TEST_F(ScenesTest, OptionsWinOverThem) {
+TEST_F(ScenesTest, OptionsAndFilesOfTheirNamesWin) {
   EXPECT_EQ(output_of({"count", "equal-masses", "--digits", "2"}), "31\n");
-}
-
-TEST_F(ScenesTest, AFileOfTheNameWins) {
   write("equal-masses", "digits = 2\n");
   EXPECT_EQ(output_of({"count", "equal-masses"}), "31\n");
   EXPECT_EQ(output_of({"count", "article"}), "314\n");
@@ -96,17 +92,12 @@ TEST_F(ScenesTest, ProblemsNameThem) {
 }
 
 TEST_F(ScenesTest, UnknownNamesAreAnsweredByTheNearest) {
-  const CommandResult scene = piblocks({"render", "lectrue", "-o", "a.mp4"});
-  EXPECT_EQ(scene.exit_code, 2);
-  EXPECT_EQ(scene.err,
+  EXPECT_EQ(refusal({"render", "lectrue", "-o", "a.mp4"}),
             "piblocks: scene: cannot read 'lectrue': there is no such file, and no shipped scene "
             "has this name; did you mean 'lecture'? 'piblocks scenes' lists them\n");
   expect_refusal({"golden", "check", "nothing-alike", "--dir", "d"},
                  "no shipped scene has this name; 'piblocks scenes' lists them");
-  const CommandResult printed = piblocks({"scenes", "lectrue"});
-  EXPECT_EQ(printed.exit_code, 2);
-  EXPECT_EQ(printed.out, "");
-  EXPECT_EQ(printed.err,
+  EXPECT_EQ(refusal({"scenes", "lectrue"}),
             "piblocks: scenes: there is no scene 'lectrue'; did you mean 'lecture'? 'piblocks "
             "scenes' lists them\n");
   expect_refusal({"count", "lecture.toml"}, "cannot read 'lecture.toml': No such file");

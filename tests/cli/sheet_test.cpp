@@ -8,14 +8,6 @@ namespace {
 
 using SheetTest = CliFixture;
 
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
-}
-
 TEST_F(SheetTest, WritesEveryKind) {
   for (const char* name : {"a.pdf", "a.svg", "a.png"}) {
     EXPECT_EQ(output_of({"sheet", "--digits", "2", "-o", name}), "");
@@ -24,9 +16,9 @@ TEST_F(SheetTest, WritesEveryKind) {
     EXPECT_TRUE(contents(name) == first) << name << " differs the second time";
   }
   EXPECT_TRUE(contents("a.pdf").starts_with("%PDF-"));
-  EXPECT_NE(contents("a.svg").find("viewBox=\"0 0 842 595\""), std::string::npos);
+  EXPECT_TRUE(contains(contents("a.svg"), "viewBox=\"0 0 842 595\""));
   EXPECT_TRUE(output_of({"sheet", "--digits", "2", "-o", "-"}) == contents("a.png"));
-  EXPECT_EQ(entries(), (std::vector<std::string>{"a.pdf", "a.png", "a.svg"}));
+  EXPECT_EQ(entries(), (Names{"a.pdf", "a.png", "a.svg"}));
 }
 
 /// The text of the sheet with these options.
@@ -37,12 +29,9 @@ class SheetTextTest : public SheetTest {
   }
   std::string text_of(const Arguments& options) const {
     output_of(Arguments{"sheet", "-o", "a.pdf"} + options);
-    const std::string command =
-        "pdftotext -layout " + (folder_ / "a.pdf") + " " + (folder_ / "a.txt");
-    EXPECT_EQ(std::system(command.c_str()), 0);
     // Spaces that are narrower than those between pictures get lost.
     std::string text;
-    for (const char c : contents("a.txt")) {
+    for (const char c : shell("pdftotext -layout a.pdf -")) {
       if (c == '=' && text.ends_with('t')) text += ' ';
       if (text.ends_with("t =") && c != ' ') text += ' ';
       text += c;

@@ -45,8 +45,8 @@ TEST_F(StillTest, StandardOutputGetsTheBytesOfTheFile) {
 TEST_F(StillTest, SvgAndPdfAreVectorPictures) {
   output_of({"still", "--at", "3", "--size", "320x180", "-o", "still.svg"});
   const std::string svg = contents("still.svg");
-  EXPECT_NE(svg.find("<svg"), std::string::npos);
-  EXPECT_NE(svg.find("viewBox=\"0 0 320 180\""), std::string::npos);
+  EXPECT_TRUE(contains(svg, "<svg"));
+  EXPECT_TRUE(contains(svg, "viewBox=\"0 0 320 180\""));
   output_of({"still", "--at", "3", "-o", "still.pdf"});
   EXPECT_TRUE(contents("still.pdf").starts_with("%PDF-"));
 }
@@ -98,7 +98,7 @@ TEST_F(StillTest, ReplacesAFileAndKeepsItsNeighbours) {
   write("other.txt", "x");
   output_of({"still", "--at", "-1", "--size", "32x18", "-o", "still.png"});
   expect_png(contents("still.png"), 32, 18);
-  EXPECT_EQ(entries(), (std::vector<std::string>{"other.txt", "still.png"}));
+  EXPECT_EQ(entries(), (Names{"other.txt", "still.png"}));
 }
 
 TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {

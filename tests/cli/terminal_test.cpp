@@ -22,7 +22,7 @@ const Arguments kRenderForTerminal{"render", "--size", "640x360", "--to", "last"
 TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
   const CommandResult result = at_terminal(kRenderForTerminal);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("\r\x1b[K[                              ]   0 %"), std::string::npos);
+  EXPECT_TRUE(contains(result.err, "\r\x1b[K[                              ]   0 %"));
   const std::size_t last_clear = result.err.rfind("\r\x1b[K");
   ASSERT_NE(last_clear, std::string::npos);
   const std::string summary = result.err.substr(last_clear + 4);
@@ -34,8 +34,8 @@ TEST_F(TerminalTest, TheBarTellsRateAndTimeLeft) {
   const Arguments slow{"render", "--size",    "1280x720", "--jobs", "1",       "--to",
                        "last",   "--encoder", "libx264",  "-o",     "slow.mp4"};
   const CommandResult result = at_terminal(slow);
-  EXPECT_NE(result.err.find(" frames/s  "), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find(" left"), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, " frames/s  "));
+  EXPECT_TRUE(contains(result.err, " left"));
 }
 
 /// A line that wraps cannot be cleared.
@@ -63,7 +63,7 @@ TEST_F(TerminalTest, ShowsHowFarALogHasComeIfItTakesAWhile) {
   };
   EXPECT_EQ(said("1000"), "");
   const std::string err = said("30e6");
-  EXPECT_NE(err.find(" rows/s  "), std::string::npos) << err;
+  EXPECT_TRUE(contains(err, " rows/s  "));
   EXPECT_TRUE(err.ends_with("\r\x1b[K")) << err;
 }
 
@@ -72,7 +72,7 @@ TEST_F(TerminalTest, AnErrorDoesNotStandBesideTheBar) {
   const Arguments render{"render", "--size", "64x36", "--fps", "10", "--to", "1", "-o", "%d.png"};
   const CommandResult result = at_terminal(render);
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("\r\x1b[Kpiblocks: output: "), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, "\r\x1b[Kpiblocks: output: "));
 }
 
 TEST_F(TerminalTest, IsLeftAloneWhenQuiet) {

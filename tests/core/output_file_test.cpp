@@ -11,6 +11,7 @@
 #include <iterator>
 #include <string>
 
+#include "support/message_of.hpp"
 #include "support/ordinary_user.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -23,6 +24,11 @@ using testing_support::TemporaryFolder;
 
 class OutputFileTest : public testing::Test {
  protected:
+  static void write(const fs::path& path, const std::string& text) {
+    OutputFile file(path);
+    file.write(text);
+    file.finish();
+  }
   std::size_t entries() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
@@ -55,14 +61,12 @@ TEST_F(OutputFileTest, KeepsTheOldFileWhenAbandoned) {
 }
 
 TEST_F(OutputFileTest, MakesMissingFoldersAndKeepsThem) {
-  OutputFile file(folder_ / "a/b/out.txt");
-  file.finish();
+  write(folder_ / "a/b/out.txt", "");
   EXPECT_TRUE(fs::exists(folder_ / "a/b/out.txt"));
 }
 
 TEST_F(OutputFileTest, HasThePermissionsOfAnOrdinaryFile) {
-  OutputFile file(folder_ / "out.txt");
-  file.finish();
+  write(folder_ / "out.txt", "");
   std::ofstream(folder_ / "plain.txt") << "x";
   EXPECT_EQ(fs::status(folder_ / "out.txt").permissions(),
             fs::status(folder_ / "plain.txt").permissions());
@@ -73,9 +77,7 @@ TEST_F(OutputFileTest, HasThePermissionsOfTheFileThatItReplaces) {
   for (const auto permissions : {fs::perms(0600), fs::perms(0664), fs::perms(0640)}) {
     std::ofstream(path) << "old";
     fs::permissions(path, permissions);
-    OutputFile file(path);
-    file.write("new");
-    file.finish();
+    write(path, "new");
     EXPECT_EQ(fs::status(path).permissions(), permissions);
     EXPECT_EQ(file_contents(path), "new");
   }
@@ -98,9 +100,7 @@ TEST_F(OutputFileTest, ReplacesWhatALinkPointsTo) {
   fs::create_symlink("there/to", folder_ / "from");
   fs::create_symlink("from", folder_ / "first");
   for (const char* text : {"new", "newer"}) {
-    OutputFile file(folder_ / "first");
-    file.write(text);
-    file.finish();
+    write(folder_ / "first", text);
     EXPECT_EQ(file_contents(folder_ / "there/to"), text);
   }
   EXPECT_TRUE(fs::is_symlink(folder_ / "first"));
@@ -113,8 +113,7 @@ TEST_F(OutputFileTest, ReplacesWhatALinkPointsTo) {
 /// Another thread of a program that uses the library may make a file just then.
 TEST_F(OutputFileTest, LeavesTheMaskOfTheProcessAlone) {
   const mode_t before = ::umask(027);
-  OutputFile file(folder_ / "out.txt");
-  file.finish();
+  write(folder_ / "out.txt", "");
   EXPECT_EQ(::umask(before), 027U);
   EXPECT_EQ(fs::status(folder_ / "out.txt").permissions(), fs::perms(0640));
 }
@@ -170,9 +169,7 @@ TEST_F(OutputFileTest, AFileThatHasLostItsNameGetsNoOther) {
 TEST_F(OutputFileTest, AFileThatIsOpenGoesByItsNumber) {
   const fs::path path = folder_ / "out.txt";
   const Descriptor open_file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
-  OutputFile file("/proc/self/fd/" + std::to_string(open_file.get()));
-  file.write("hello");
-  file.finish();
+  write("/proc/self/fd/" + std::to_string(open_file.get()), "hello");
   EXPECT_EQ(file_contents(path), "hello");
 }
 
@@ -182,12 +179,8 @@ TEST_F(OutputFileTest, APipeIsNamedAsItWasGiven) {
   const Descriptor out(pipe[0]);
   const Descriptor in(pipe[1]);
   const std::string name = "/proc/self/fd/" + std::to_string(in.get());
-  try {
-    const OutputFile file(name);
-    ADD_FAILURE();
-  } catch (const UsageError& error) {
-    EXPECT_EQ(std::string(error.what()), "output: cannot open '" + name + "': not a file");
-  }
+  EXPECT_EQ(testing_support::message_of<UsageError>([&] { OutputFile{name}; }),
+            "output: cannot open '" + name + "': not a file");
 }
 
 }  // namespace

@@ -20,25 +20,6 @@ constexpr double kLeast = std::numeric_limits<double>::denorm_min();
 constexpr double kMost = std::numeric_limits<double>::max();
 constexpr double kPi = std::numbers::pi;
 
-class RoundedFunctionsAtRandom : public testing::TestWithParam<RoundedFunction> {};
-
-TEST_P(RoundedFunctionsAtRandom, RoundAsMpfr) {
-  const RoundingTally tally = check_rounding(GetParam(), 100'000, Random(7), 100);
-  EXPECT_EQ(tally.wrong, 0) << "at " << tally.wrong_at[0] << ", " << tally.wrong_at[1];
-  // The arguments are so many that both ways to the value are taken, and that they can tell this
-  // function from the C library's, which does not always round correctly.
-  EXPECT_GT(tally.outside + tally.undecided, 0);
-  EXPECT_GT(tally.unlike_c, 0);
-}
-
-std::string name_of(const testing::TestParamInfo<RoundedFunction>& tested) {
-  std::string name = tested.param.name;
-  std::ranges::replace(name, '.', '_');
-  return name;
-}
-INSTANTIATE_TEST_SUITE_P(All, RoundedFunctionsAtRandom, testing::ValuesIn(kRoundedFunctions),
-                         name_of);
-
 struct SpecialValue {
   const char* function;
   double x;

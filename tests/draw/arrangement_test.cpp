@@ -2,16 +2,13 @@
 // other, from blocks and from the margins, and can be read. What has no room is refused by its key.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/script.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "draw/composition.hpp"
-#include "draw/font.hpp"
+#include "draw/composed_pictures.hpp"
 #include "draw/look.hpp"
 #include "scene/schedule.hpp"
 #include "support/property.hpp"
@@ -30,30 +27,15 @@ constexpr std::array kDigits{1, 3, 8};
 
 /// A raised or lowered part of a formula, in parts of its line.
 constexpr double kScriptScale = 0.65;
-constexpr double kTouch_px = 0.5;
 /// Places are whole pixels where that makes them sharp.
 constexpr double kRounded_px = 0.5;
 constexpr double kRounding = 1e-6;
 
-bool shows(ItemId item, ItemId thing) {
-  return static_cast<std::uint32_t>(item) >> 16 == static_cast<std::uint32_t>(thing) >> 16;
-}
-
-struct Box {
-  double left;
-  double top;
-  double right;
-  double bottom;
+struct Placed : Box {
   double baseline;
   ItemId id;
   double size_px;  ///< of type; 0 of a block
-  std::string what;
 };
-
-bool overlap(const Box& a, const Box& b) {
-  return a.left < b.right - kTouch_px && b.left < a.right - kTouch_px &&
-         a.top < b.bottom - kTouch_px && b.top < a.bottom - kTouch_px;
-}
 
 /// The texts and blocks of a picture, and what is wrong with them.
 class Arrangement {
@@ -65,18 +47,18 @@ class Arrangement {
 
   std::string problem() const {
     for (std::size_t i = 0; i < texts_.size(); ++i) {
-      const Box& text = texts_[i];
+      const Placed& text = texts_[i];
       if (!is_inside(text)) return text.what + " is outside of the margins";
       if (!can_be_read(text)) return text.what + " is too small";
       for (std::size_t k = 0; k < i; ++k) {
         if (overlap(text, texts_[k])) return text.what + " meets " + texts_[k].what;
       }
-      for (const Box& block : blocks_) {
+      for (const Placed& block : blocks_) {
         // A mass may be on its block, and the loupe has a label of its own.
         const bool belongs = shows(text.id, ItemId::masses)
                                  ? !shows(block.id, ItemId::loupe)
                                  : shows(text.id, ItemId::loupe) && shows(block.id, ItemId::loupe);
-        if (belongs && is_on(text, block)) continue;
+        if (belongs && block.holds(text)) continue;
         if (overlap(text, block)) return text.what + " meets " + block.what;
       }
     }
@@ -91,8 +73,7 @@ class Arrangement {
       if (const auto* plate = std::get_if<PlateItem>(&item)) add(plate->plate->items);
       if (const auto* block = std::get_if<RectangleItem>(&item)) add(*block);
       if (const auto* group = std::get_if<GroupItem>(&item)) {
-        const Rect& r = group->bounds;
-        blocks_.push_back({r.x, r.y, r.right(), r.bottom(), 0, group->id, 0, "the loupe"});
+        blocks_.push_back({{group->bounds, "the loupe"}, 0, group->id, 0});
       }
     }
   }
@@ -103,49 +84,46 @@ class Arrangement {
     // Beside letters, brackets and commas hang below the line.
     const bool hangs =
         text.face == Face::math || text.text.find_first_of("gjpqyQ,;()[]") != std::string::npos;
-    texts_.push_back({text.origin.x, text.origin.y - 0.74 * em, text.origin.x + width,
-                      text.origin.y + (hangs ? 0.2 : 0.02) * em, text.origin.y, text.id, em,
-                      "'" + text.text + "'"});
+    texts_.push_back(
+        {{{text.origin.x, text.origin.y - 0.74 * em, width, (hangs ? 0.94 : 0.76) * em},
+          "'" + text.text + "'"},
+         text.origin.y,
+         text.id,
+         em});
   }
   void add(const RectangleItem& item) {
     if (item.id != ItemId::red_block && item.id != ItemId::blue_block) return;
-    const Rect& r = item.bounds;
-    blocks_.push_back({r.x, r.y, r.right(), r.bottom(), 0, item.id, 0,
-                       item.id == ItemId::red_block ? "the red block" : "the blue block"});
+    const bool is_red = item.id == ItemId::red_block;
+    blocks_.push_back({{item.bounds, is_red ? "the red block" : "the blue block"}, 0, item.id, 0});
   }
 
-  bool is_inside(const Box& text) const {
+  bool is_inside(const Placed& text) const {
     const bool is_counter = shows(text.id, ItemId::label) || shows(text.id, ItemId::count) ||
                             shows(text.id, ItemId::lit_count);
     const double margin = view_.theme == Theme::article && is_counter
                               ? 0  // of the article's own picture
                               : sizes_.margin - kRounding;
     // What hangs below the line may reach into the margin.
-    return text.left >= margin && text.right <= list_.width_px - margin && text.top >= margin / 2 &&
+    return text.x >= margin && text.right() <= list_.width_px - margin && text.y >= margin / 2 &&
            text.baseline <= list_.height_px - margin + kRounded_px;
   }
 
   /// Whether a text has the least size of type, or is a script beside a text that has it.
-  bool can_be_read(const Box& text) const {
+  bool can_be_read(const Placed& text) const {
     const double least = style::kLeastType * sizes_.short_side - kRounding;
-    return text.size_px >= least || std::ranges::any_of(texts_, [&](const Box& base) {
+    return text.size_px >= least || std::ranges::any_of(texts_, [&](const Placed& base) {
              return base.size_px >= least &&
                     std::abs(base.size_px * kScriptScale - text.size_px) < kRounding &&
-                    text.left >= base.left && text.left < base.right + 4 * base.size_px;
+                    text.x >= base.x && text.x < base.right() + 4 * base.size_px;
            });
-  }
-
-  static bool is_on(const Box& text, const Box& block) {
-    return text.left >= block.left && text.right <= block.right && text.top >= block.top &&
-           text.bottom <= block.bottom;
   }
 
   const DrawList& list_;
   const View& view_;
   Sizes sizes_;
   const Fonts& fonts_;
-  std::vector<Box> texts_;
-  std::vector<Box> blocks_;
+  std::vector<Placed> texts_;
+  std::vector<Placed> blocks_;
 };
 
 struct Case {
@@ -168,11 +146,10 @@ struct Case {
 };
 
 Scene scene_of(const Case& one) {
-  ScriptBuilder builder;
+  Settings settings{{"digits", std::to_string(one.digits)}};
   const auto set = [&](const char* key, const std::string& text) {
-    if (!text.empty()) builder.set("test", key, text);
+    if (!text.empty()) settings.emplace_back(key, text);
   };
-  set("digits", std::to_string(one.digits));
   set("view.size", one.size);
   set("view.theme", one.theme);
   set("show.overlays", one.overlays);
@@ -180,7 +157,7 @@ Scene scene_of(const Case& one) {
   if (one.has_title) set("show.title", "Why do two blocks count π?");
   if (one.has_caption) set("show.caption", "Two blocks, a wall and no friction");
   if (one.is_slowed) set("time.slow-motion", "auto");
-  return builder.build_scene();
+  return scene_with(settings);
 }
 
 /// A refusal names a key and what would help, in one line.
@@ -198,17 +175,13 @@ class Arrangements : public testing::Test {
  protected:
   void expect_sound(const Case& one) {
     const Scene scene = scene_of(one);
-    const auto log = make_pair_log(scene.system);
     ++tried_;
     try {
-      const Composition composition(scene, *log);
+      const Pictures pictures(scene);
       ++drawn_;
-      const Rational end = span_of(scene, *log).to;
+      const Rational end = span_of(scene, *pictures.log).to;
       for (const Rational& time : {Rational(0), Rational(33, 10), Rational(7, 2), end}) {
-        const DrawList list = composition.frame({.state = log->state_at(time),
-                                                 .time = time,
-                                                 .slowdown = one.is_slowed && time != 0 ? 1000 : 1,
-                                                 .gaps = log->gaps_at(time)});
+        const DrawList list = pictures.at(time, one.is_slowed && time != 0 ? 1000 : 1);
         const Arrangement arrangement(list, scene.view, fonts_);
         EXPECT_EQ(arrangement.problem(), "") << one.text() << " --at " << time;
         texts_ += arrangement.text_count();

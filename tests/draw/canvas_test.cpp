@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/extent.hpp"
+#include "draw/found_items.hpp"
 
 namespace piblocks {
 namespace {
@@ -16,10 +17,9 @@ namespace {
 constexpr Color kWhite = {255, 255, 255};
 constexpr Color kGreen = {10, 200, 30};
 
-std::uint32_t pixel(const Canvas& canvas, int x, int y) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, canvas.view().row(y) + 4 * x, 4);
-  return value & 0xFFFFFF;
+void expect_colors(const Canvas& canvas, std::uint32_t color,
+                   const std::vector<std::pair<int, int>>& places) {
+  for (const auto& [x, y] : places) EXPECT_EQ(color_at(canvas, x, y), color) << x << ", " << y;
 }
 
 DrawList with_rectangle(const Rect& bounds) {
@@ -41,18 +41,15 @@ TEST(Extent, FindsWhatIsNotFiniteInGroups) {
 TEST(Canvas, FillsExactlyTheRectangle) {
   Canvas canvas(40, 30);
   canvas.paint(with_rectangle({10, 5, 20, 10}));
-  EXPECT_EQ(pixel(canvas, 10, 5), 0x0AC81Eu);
-  EXPECT_EQ(pixel(canvas, 29, 14), 0x0AC81Eu);
-  EXPECT_EQ(pixel(canvas, 9, 5), 0xFFFFFFu);
-  EXPECT_EQ(pixel(canvas, 30, 14), 0xFFFFFFu);
-  EXPECT_EQ(pixel(canvas, 29, 15), 0xFFFFFFu);
+  expect_colors(canvas, 0x0AC81E, {{10, 5}, {29, 14}});
+  expect_colors(canvas, 0xFFFFFF, {{9, 5}, {30, 14}, {29, 15}});
 }
 
 TEST(Canvas, CoversPartialPixelsInProportion) {
   Canvas canvas(40, 30);
   canvas.paint(with_rectangle({10.25, 5, 20, 10}));
-  EXPECT_NEAR(pixel(canvas, 10, 7) & 0xFF, 255 - 0.75 * (255 - 30), 2);
-  EXPECT_NEAR(pixel(canvas, 30, 7) & 0xFF, 255 - 0.25 * (255 - 30), 2);
+  EXPECT_NEAR(color_at(canvas, 10, 7) & 0xFF, 255 - 0.75 * (255 - 30), 2);
+  EXPECT_NEAR(color_at(canvas, 30, 7) & 0xFF, 255 - 0.25 * (255 - 30), 2);
 }
 
 TEST(Canvas, AStrokeStaysInside) {
@@ -62,10 +59,8 @@ TEST(Canvas, AStrokeStaysInside) {
        30,
        kWhite,
        {RectangleItem{ItemId::wall, {10, 5, 20, 10}, std::nullopt, Stroke{kGreen, 2, 0}}}});
-  EXPECT_EQ(pixel(canvas, 9, 10), 0xFFFFFFu);
-  EXPECT_EQ(pixel(canvas, 10, 10), 0x0AC81Eu);
-  EXPECT_EQ(pixel(canvas, 11, 10), 0x0AC81Eu);
-  EXPECT_EQ(pixel(canvas, 12, 10), 0xFFFFFFu);
+  expect_colors(canvas, 0x0AC81E, {{10, 10}, {11, 10}});
+  expect_colors(canvas, 0xFFFFFF, {{9, 10}, {12, 10}});
 }
 
 TEST(Canvas, WhatReachesFarOutOfTheFrameIsSeenInIt) {
@@ -79,10 +74,9 @@ TEST(Canvas, WhatReachesFarOutOfTheFrameIsSeenInIt) {
                    RectangleItem{ItemId::red_block, {-far, -far, far + 5, far + 6}, kGreen, kLine},
                    PathItem{ItemId::ruler, std::vector<Point>{{-far, 10}, {far, 10}}, false,
                             std::nullopt, kLine}}});
-    EXPECT_EQ(pixel(canvas, 38, 28), 0x0AC81Eu) << far;
-    EXPECT_EQ(pixel(canvas, 2, 3), 0x0AC81Eu) << far;
-    EXPECT_EQ(pixel(canvas, 30, 10), 0x0AC81Eu) << far;
-    EXPECT_EQ(pixel(canvas, 12, 20), 0xFFFFFFu) << far;
+    SCOPED_TRACE(far);
+    expect_colors(canvas, 0x0AC81E, {{38, 28}, {2, 3}, {30, 10}});
+    expect_colors(canvas, 0xFFFFFF, {{12, 20}});
   }
 }
 
@@ -92,27 +86,15 @@ TEST(Canvas, DashesMeetInEveryCorner) {
                 30,
                 kWhite,
                 {RectangleItem{ItemId::wall, {2, 3, 31, 23}, std::nullopt, Stroke{kGreen, 1, 3}}}});
-  for (const auto& [x, y] : {std::pair{2, 3}, {32, 3}, {2, 25}, {32, 25}}) {
-    EXPECT_EQ(pixel(canvas, x, y), 0x0AC81Eu) << x << ',' << y;
-  }
+  expect_colors(canvas, 0x0AC81E, {{2, 3}, {32, 3}, {2, 25}, {32, 25}});
 }
 
 TEST(Canvas, APictureDoesNotDependOnTheOneBefore) {
   const DrawList text{40, 30, kWhite, {TextItem{ItemId::count, {2, 20}, "31", 18, kGreen}}};
-  Canvas fresh(40, 30);
-  fresh.paint(text);
   Canvas used(40, 30);
   used.paint(with_rectangle({3, 3, 30, 20}));
   used.paint(text);
-  for (int y = 0; y < 30; ++y) {
-    EXPECT_EQ(std::memcmp(fresh.view().row(y), used.view().row(y), 40 * 4), 0) << "row " << y;
-  }
-}
-
-std::uint32_t word(const Canvas& canvas, int x, int y) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, canvas.view().row(y) + 4 * x, 4);
-  return value;
+  EXPECT_EQ(words_of(used.view()), painted(text));
 }
 
 /// A plate of its own in each list, with the same disc in all.
@@ -130,11 +112,8 @@ TEST(Canvas, PlatesOfEqualItemsMayHaveOtherPixels) {
       for (const double right : {0.0, 7.0, 7.0}) {
         const DrawList list = with_plate({bounds.x + right, bounds.y, bounds.width, bounds.height},
                                          {origin.x + right, origin.y});
-        Canvas fresh(60, 40);
-        fresh.paint(list);
         canvas.paint(list);
-        const std::size_t size = std::size_t(canvas.view().stride_bytes) * 40;
-        EXPECT_EQ(std::memcmp(canvas.view().row(0), fresh.view().row(0), size), 0)
+        EXPECT_EQ(words_of(canvas.view()), painted(list))
             << bounds.width << ' ' << bounds.x << ' ' << origin.x << ' ' << origin.y;
       }
     }
@@ -148,33 +127,29 @@ TEST(Canvas, WithoutABackgroundHasAlphaAndColoursMultipliedByIt) {
   EXPECT_TRUE(canvas.view().has_alpha);
   EXPECT_FALSE(Canvas(40, 30).view().has_alpha);
   canvas.paint(list);
-  EXPECT_EQ(word(canvas, 20, 7), 0xFF0AC81Eu);
-  EXPECT_EQ(word(canvas, 5, 7), 0u);
-  EXPECT_NEAR(word(canvas, 10, 7) >> 24, 0.75 * 255, 2);
-  EXPECT_NEAR(word(canvas, 10, 7) >> 8 & 0xFF, 0.75 * 200, 2);
+  const std::vector<std::uint32_t> words = words_of(canvas.view());
+  constexpr std::size_t kRow = 7 * 40;
+  EXPECT_EQ(words[kRow + 20], 0xFF0AC81Eu);
+  EXPECT_EQ(words[kRow + 5], 0u);
+  EXPECT_NEAR(words[kRow + 10] >> 24, 0.75 * 255, 2);
+  EXPECT_NEAR(words[kRow + 10] >> 8 & 0xFF, 0.75 * 200, 2);
   list.items.clear();
   canvas.paint(list);
-  EXPECT_EQ(word(canvas, 20, 7), 0u) << "what was there before is gone";
+  EXPECT_EQ(words_of(canvas.view())[kRow + 20], 0u) << "what was there before is gone";
 }
 
 TEST(Canvas, WithoutABackgroundLooksTheSameOnWhite) {
   DrawList list = with_rectangle({3.4, 5.7, 20.3, 10.1});
   list.items.emplace_back(TextItem{ItemId::count, {2, 20}, "31", 18, {20, 40, 220}});
-  Canvas opaque(40, 30);
-  opaque.paint(list);
+  const std::vector<std::uint32_t> opaque = painted(list);
   list.background.reset();
-  Canvas transparent(40, 30, Background::transparent);
-  transparent.paint(list);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) {
-      const std::uint32_t over = word(transparent, x, y);
-      for (const int shift : {0, 8, 16}) {
-        const int shown =
-            static_cast<int>(over >> shift & 0xFF) + 255 - static_cast<int>(over >> 24);
-        EXPECT_NEAR(shown, static_cast<int>(pixel(opaque, x, y) >> shift & 0xFF), 2)
-            << x << ',' << y;
-        EXPECT_LE(over >> shift & 0xFF, over >> 24) << x << ',' << y;
-      }
+  const std::vector<std::uint32_t> transparent = painted(list);
+  for (std::size_t i = 0; i < opaque.size(); ++i) {
+    const std::uint32_t over = transparent[i];
+    for (const int shift : {0, 8, 16}) {
+      const int shown = static_cast<int>(over >> shift & 0xFF) + 255 - static_cast<int>(over >> 24);
+      EXPECT_NEAR(shown, static_cast<int>(opaque[i] >> shift & 0xFF), 2) << i;
+      EXPECT_LE(over >> shift & 0xFF, over >> 24) << i;
     }
   }
 }

@@ -3,19 +3,12 @@
 
 #include <variant>
 
-#include "draw/font.hpp"
+#include "draw/composed_pictures.hpp"
 #include "draw/look.hpp"
 #include "draw/montage.hpp"
 
 namespace piblocks {
 namespace {
-
-View view_of_size(int width_px, int height_px) {
-  View view;
-  view.width_px = width_px;
-  view.height_px = height_px;
-  return view;
-}
 
 const std::vector<std::string> kLines = {
     "Counting π", "with two blocks and a wall", "all of them elastic", "3", "4", "5", "6", "7"};

@@ -1,5 +1,5 @@
-// Scenes, their pictures and the texts in them.
-// In: settings as on the command line. Out: draw lists, and boxes around texts.
+// Scenes of two blocks and their pictures.
+// In: settings as on the command line. Out: draw lists.
 #pragma once
 
 #include <piblocks/script.hpp>
@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "draw/composition.hpp"
-#include "draw/font.hpp"
+#include "draw/found_items.hpp"
 #include "draw/layout.hpp"
+#include "support/state_after.hpp"
 
 namespace piblocks {
 
@@ -21,17 +22,34 @@ inline constexpr std::array kThemeNames{"article", "lecture", "lecture-light", "
                                         "dark",    "print",   "colorblind"};
 
 using Setting = std::pair<const char*, std::string>;
+using Settings = std::vector<Setting>;
 
-inline Scene scene_with(int digits, const std::vector<Setting>& settings) {
+inline Settings operator+(Settings settings, const Settings& more) {
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
+inline Scene scene_with(const Settings& settings) {
   ScriptBuilder builder;
-  builder.set("test", "digits", std::to_string(digits));
   for (const auto& [key, text] : settings) builder.set("test", key, text);
   return builder.build_scene();
 }
 
+inline Scene scene_with(int digits, const Settings& settings) {
+  return scene_with(Settings{{"digits", std::to_string(digits)}} + settings);
+}
+
+inline View view_of_size(int width_px, int height_px) {
+  View view;
+  view.width_px = width_px;
+  view.height_px = height_px;
+  return view;
+}
+
 struct Pictures {
-  explicit Pictures(const Scene& scene)
-      : log(make_pair_log(scene.system)), composition(scene, *log) {}
+  explicit Pictures(Scene of)
+      : scene(std::move(of)), log(make_pair_log(scene.system)), composition(scene, *log) {}
+  Pictures(int digits, const Settings& settings) : Pictures(scene_with(digits, settings)) {}
 
   DrawList at(const Rational& time, const Rational& slowdown = 1) const {
     return composition.frame({.state = log->state_at(time),
@@ -39,7 +57,12 @@ struct Pictures {
                               .slowdown = slowdown,
                               .gaps = log->gaps_at(time)});
   }
+  DrawList after(const Integer& index) const {
+    return composition.frame({bodies_after(*log, index)});
+  }
+  Rational turn() const { return *turn_of(log->blocks()); }
 
+  Scene scene;
   std::unique_ptr<PairLog> log;
   Composition composition;
 };
@@ -64,56 +87,15 @@ struct Drawing {
   DrawingContext context;
 };
 
-struct Box {
-  double left;
-  double top;
-  double right;
-  double bottom;
-  std::string what;
-};
-
-/// Of a text's capitals and figures, with what hangs below the line.
-inline Box box_of(const TextItem& text, const Fonts& fonts) {
-  return {text.origin.x, text.origin.y - 0.76 * text.size_px,
-          text.origin.x + fonts.of(text.face).width_em(text.text) * text.size_px,
-          text.origin.y + 0.2 * text.size_px, text.text};
-}
-
-inline void add_texts(const std::vector<DrawItem>& items, const Fonts& fonts,
-                      std::vector<Box>& boxes) {
-  for (const DrawItem& item : items) {
-    if (const auto* text = std::get_if<TextItem>(&item)) boxes.push_back(box_of(*text, fonts));
-    if (const auto* plate = std::get_if<PlateItem>(&item)) {
-      add_texts(plate->plate->items, fonts, boxes);
-    }
-  }
-}
-
-inline std::vector<Box> texts_of(const DrawList& list) {
-  std::vector<Box> boxes;
-  add_texts(list.items, Fonts(), boxes);
-  return boxes;
-}
-
-inline bool overlap(const Box& a, const Box& b) {
-  constexpr double kTouch_px = 0.5;
-  return a.left < b.right - kTouch_px && b.left < a.right - kTouch_px &&
-         a.top < b.bottom - kTouch_px && b.top < a.bottom - kTouch_px;
-}
-
-inline std::string text_of(const DrawList& list, ItemId id) {
-  for (const DrawItem& item : list.items) {
-    const auto* text = std::get_if<TextItem>(&item);
-    if (text != nullptr && text->id == id) return text->text;
-  }
-  return {};
+/// "red 1.25 + blue 3.75 = 5" and the like: the number after a word.
+inline double number_after(std::string text, const std::string& word) {
+  std::erase(text, ',');
+  return std::stod(text.substr(text.find(word) + word.size()));
 }
 
 inline bool has_text(const DrawList& list, const std::string& wanted) {
-  return std::ranges::any_of(list.items, [&](const DrawItem& item) {
-    const auto* text = std::get_if<TextItem>(&item);
-    return text != nullptr && text->text == wanted;
-  });
+  const auto texts = items_of<TextItem>(list.items);
+  return std::ranges::find(texts, wanted, &TextItem::text) != texts.end();
 }
 
 }  // namespace piblocks

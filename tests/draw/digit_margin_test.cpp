@@ -2,80 +2,58 @@
 // refuses, room.
 #include "draw/panels/digit_margin.hpp"
 
+#include <boost/multiprecision/mpfr.hpp>
 #include <gtest/gtest.h>
 #include <mpfr.h>
 #include <piblocks/error.hpp>
-#include <piblocks/script.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "draw/composition.hpp"
-#include "draw/font.hpp"
+#include "draw/composed_pictures.hpp"
 #include "draw/look.hpp"
+#include "support/contains.hpp"
+#include "support/message_of.hpp"
 
 namespace piblocks {
 namespace {
+using testing_support::contains;
+using testing_support::message_of;
 
-using Settings = std::vector<std::pair<const char*, std::string>>;
-
-constexpr mpfr_prec_t kBits = 400;
-
-/// A number of MPFR, rounded to nearest.
-struct Float {
-  Float() { mpfr_init2(value, kBits); }
-  ~Float() { mpfr_clear(value); }
-  Float(const Float&) = delete;
-  Float& operator=(const Float&) = delete;
-  mpfr_t value;
-};
+using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<120>,
+                                           boost::multiprecision::et_off>;
 
 /// pi/s, pi/theta, and the least pi of one more collision over s, less the whole part of pi/s.
 struct Expected {
   Expected(int base, int digits) {
-    Float scale;
-    Float theta;
-    mpfr_ui_pow_ui(scale.value, static_cast<unsigned long>(base),
-                   static_cast<unsigned long>(digits - 1), MPFR_RNDN);
-    mpfr_ui_div(theta.value, 1, scale.value, MPFR_RNDN);
-    mpfr_atan(theta.value, theta.value, MPFR_RNDN);
-    Float pi;
-    mpfr_const_pi(pi.value, MPFR_RNDN);
-    mpfr_mul(fraction.value, pi.value, scale.value, MPFR_RNDN);
-    mpfr_get_z(whole.get_mpz_t(), fraction.value, MPFR_RNDD);
-    mpfr_div(rays.value, pi.value, theta.value, MPFR_RNDN);
-    mpfr_sub(excess.value, rays.value, fraction.value, MPFR_RNDN);
-    mpfr_sub_z(fraction.value, fraction.value, whole.get_mpz_t(), MPFR_RNDN);
-    mpfr_sub_z(rays.value, rays.value, whole.get_mpz_t(), MPFR_RNDN);
-    mpfr_mul_z(least.value, theta.value, Integer(whole + 1).get_mpz_t(), MPFR_RNDN);
-    mpfr_mul(least.value, least.value, scale.value, MPFR_RNDN);
-    mpfr_sub_z(least.value, least.value, whole.get_mpz_t(), MPFR_RNDN);
+    const Real scale = pow(Real(base), digits - 1);
+    const Real theta = atan(1 / scale);
+    const Real pi = 4 * atan(Real(1));
+    const Real floored = floor(pi * scale);
+    mpfr_get_z(whole.get_mpz_t(), floored.backend().data(), MPFR_RNDN);
+    fraction = pi * scale - floored;
+    rays = pi / theta - floored;
+    excess = rays - fraction;
+    least = theta * (floored + 1) * scale - floored;
   }
   /// Digits after the point of a number from 0 to 1.
-  static std::string digits_of(const Float& number, int base, std::size_t count) {
-    Float rest;
-    mpfr_set(rest.value, number.value, MPFR_RNDN);
+  static std::string digits_of(Real rest, int base, std::size_t count) {
     std::string digits;
     while (digits.size() < count) {
-      mpfr_mul_si(rest.value, rest.value, base, MPFR_RNDN);
-      const long digit = mpfr_get_si(rest.value, MPFR_RNDD);
-      digits += Integer(digit).get_str(base);
-      mpfr_sub_si(rest.value, rest.value, digit, MPFR_RNDN);
+      rest *= base;
+      digits += Integer(static_cast<long>(floor(rest))).get_str(base);
+      rest -= floor(rest);
     }
     return digits;
   }
 
   Integer whole;
-  Float fraction;
-  Float rays;  ///< less the whole part
-  Float excess;
-  Float least;
+  Real fraction;
+  Real rays;  ///< less the whole part
+  Real excess;
+  Real least;
 };
-
-double nearest(const Float& number) { return mpfr_get_d(number.value, MPFR_RNDN); }
 
 TEST(DigitMargin, AgreesWithMpfr) {
   for (const int base : {2, 3, 7, 10, 16, 36}) {
@@ -86,9 +64,9 @@ TEST(DigitMargin, AgreesWithMpfr) {
       const auto expect_near = [&](const Rational& value, double number) {
         EXPECT_NEAR(to_double(value), number, 1e-15 * std::abs(number)) << base << ' ' << digits;
       };
-      expect_near(found.fraction(), nearest(expected.fraction));
-      expect_near(found.excess(), nearest(expected.excess));
-      EXPECT_EQ(found.is_wrong(), nearest(expected.rays) > 1) << base << ' ' << digits;
+      expect_near(found.fraction(), double(expected.fraction));
+      expect_near(found.excess(), double(expected.excess));
+      EXPECT_EQ(found.is_wrong(), double(expected.rays) > 1) << base << ' ' << digits;
       EXPECT_EQ(found.following(20), Expected::digits_of(expected.fraction, base, 20));
       if (digits > 1) {
         EXPECT_EQ(found.needed(20), Expected::digits_of(expected.least, base, 20));
@@ -125,51 +103,22 @@ TEST(DigitMargin, CountsNines) {
   }
 }
 
-Scene scene_of(const Settings& settings) {
-  ScriptBuilder builder;
-  builder.set("test", "view.theme", "lecture");
-  builder.set("test", "show.panels", "certainty");
-  for (const auto& [key, text] : settings) builder.set("test", key, text);
-  return builder.build_scene();
-}
-
 /// What the panel shows.
-struct Figure {
-  explicit Figure(const Settings& settings, const Rational& time = 0) {
-    const Scene scene = scene_of(settings);
-    const auto log = make_pair_log(scene.system);
-    const DrawList list = Composition(scene, *log).frame({log->state_at(time), time});
-    for (const DrawItem& item : list.items) {
-      const auto* plate = std::get_if<PlateItem>(&item);
-      if (plate == nullptr || plate->id < ItemId::panels) continue;
-      bounds = plate->bounds;
-      items = plate->plate->items;
-      ++plates;
-    }
-    const Palette palette = palette_of(scene.view.theme);
-    for (const DrawItem& item : items) {
-      if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(*text);
-      const auto* path = std::get_if<PathItem>(&item);
-      if (path == nullptr) continue;
-      paths.push_back(*path);
-      const Rect& box = path->points.bounds();
-      if (path->fill == palette.accent && path->points.view().size() == 4) bands.push_back(box);
-      if (path->stroke && box.height == 0 && box.width > 0) lines.push_back(box);
+struct Figure : Shown {
+  explicit Figure(const Settings& settings, const Rational& time = 0)
+      : Shown(
+            Pictures(scene_with(Settings{{"view.theme", "lecture"}, {"show.panels", "certainty"}} +
+                                settings))
+                .at(time)) {
+    const Palette palette = palette_of(Theme::lecture);
+    for (const PathItem& path : paths) {
+      const Rect& box = path.points.bounds();
+      if (path.fill == palette.accent && path.points.view().size() == 4) bands.push_back(box);
+      if (path.stroke && box.height == 0 && box.width > 0) lines.push_back(box);
     }
   }
-  /// All that is written, from item to item.
-  std::string words() const {
-    std::string all;
-    for (const TextItem& text : texts) all += text.text + ' ';
-    return all;
-  }
-  bool says(const std::string& text) const { return words().find(text) != std::string::npos; }
+  bool says(const std::string& text) const { return contains(words(" "), text); }
 
-  Rect bounds;
-  std::size_t plates = 0;
-  std::vector<DrawItem> items;
-  std::vector<PathItem> paths;
-  std::vector<TextItem> texts;
   std::vector<Rect> bands;  ///< from pi/s to pi/theta
   std::vector<Rect> lines;
 };
@@ -180,8 +129,8 @@ TEST_P(MarginBases, MarksAreWhereTheyBelong) {
   for (int digits = 1; digits <= 20; ++digits) {
     const Figure figure({{"base", std::to_string(GetParam())}, {"digits", std::to_string(digits)}});
     const Expected expected(GetParam(), digits);
-    const double fraction = nearest(expected.fraction);
-    const double excess = nearest(expected.excess);
+    const double fraction = double(expected.fraction);
+    const double excess = double(expected.excess);
     const Rect& line = figure.lines.at(0);
     const Rect& band = figure.bands.at(0);
     EXPECT_NEAR(band.x, line.x + fraction * line.width, 1e-6) << digits;
@@ -195,15 +144,15 @@ TEST(MarginPanel, SaysWhichDigitsWouldBeNeeded) {
   const Figure three(Settings{{"digits", "3"}});
   for (const char* text :
        {"314 ", "315 ", "100 π", "314.159…", "314.169…", "0.0105", "9895…", "1592…", "nines"}) {
-    EXPECT_TRUE(three.says(text)) << text << " in " << three.words();
+    EXPECT_TRUE(three.says(text)) << text << " in " << three.words(" ");
   }
   const Figure twenty(Settings{{"digits", "20"}});
   for (const char* text : {"…932,384", "…932,385", "18", "20", "626433…", "nines"}) {
-    EXPECT_TRUE(twenty.says(text)) << text << " in " << twenty.words();
+    EXPECT_TRUE(twenty.says(text)) << text << " in " << twenty.words(" ");
   }
   const Figure binary({{"digits", "5"}, {"base", "2"}});
   for (const char* text : {"110010 ", "110011 ", "11.0010 ", "111011…", "010000…", "ones"}) {
-    EXPECT_TRUE(binary.says(text)) << text << " in " << binary.words();
+    EXPECT_TRUE(binary.says(text)) << text << " in " << binary.words(" ");
   }
   EXPECT_TRUE(Figure(Settings{{"digits", "5"}, {"base", "16"}}).says("digits f"));
 }
@@ -226,8 +175,8 @@ TEST(MarginPanel, ShowsADigitThatIsWrong) {
 TEST(MarginPanel, IsOnePlateThatNeverChanges) {
   const Figure early(Settings{{"digits", "3"}});
   const Figure late(Settings{{"digits", "3"}}, 9);
-  EXPECT_EQ(early.plates, 1U);
-  EXPECT_TRUE(early.items == late.items);
+  EXPECT_EQ(early.plates.size(), 1U);
+  EXPECT_TRUE(early.plates == late.plates);
 }
 
 TEST(MarginPanel, RefusesScenesThatDoNotCountPi) {
@@ -238,43 +187,19 @@ TEST(MarginPanel, RefusesScenesThatDoNotCountPi) {
         Settings{{"digits", "3"}, {"blue.velocity", "1"}},
         Settings{{"digits", "3"}, {"red.velocity", "1"}, {"time.to", "1"}},
         Settings{{"digits", "3"}, {"blue.position", "1/2"}}}) {
-    try {
-      const Figure figure(settings);
-      ADD_FAILURE() << settings.front().second;
-    } catch (const UsageError& error) {
-      const std::string message = error.what();
-      EXPECT_EQ(message.find("show.panels: the diagram 'certainty'"), 0U) << message;
-      EXPECT_NE(message.find("leave it out"), std::string::npos) << message;
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    }
+    const std::string message = message_of<UsageError>([&] { Figure{settings}; });
+    EXPECT_EQ(message.find("show.panels: the diagram 'certainty'"), 0U) << message;
+    EXPECT_TRUE(contains(message, "leave it out"));
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
 }
 
 TEST(MarginPanel, RefusesWhatIsTooSmallToRead) {
-  try {
-    const Figure figure({{"digits", "3"}, {"show.panels", "certainty,velocity,time,unfolded"}});
-    ADD_FAILURE();
-  } catch (const UsageError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find("show.panels: "), 0U) << message;
-    EXPECT_NE(message.find("make the frame larger"), std::string::npos) << message;
-  }
-}
-
-Rect box_of(const TextItem& text, const Fonts& fonts) {
-  return {text.origin.x, text.origin.y - 0.74 * text.size_px,
-          fonts.of(text.face).width_em(text.text) * text.size_px, 0.95 * text.size_px};
-}
-
-bool holds(const Rect& outer, const Rect& inner) {
-  return inner.x >= outer.x && inner.right() <= outer.right() && inner.y >= outer.y &&
-         inner.bottom() <= outer.bottom();
-}
-
-bool overlap(const Rect& a, const Rect& b) {
-  constexpr double kTouch_px = 0.5;
-  return a.x < b.right() - kTouch_px && b.x < a.right() - kTouch_px &&
-         a.y < b.bottom() - kTouch_px && b.y < a.bottom() - kTouch_px;
+  const std::string message = message_of<UsageError>([] {
+    Figure({{"digits", "3"}, {"show.panels", "certainty,velocity,time,unfolded"}});
+  });
+  EXPECT_EQ(message.find("show.panels: "), 0U) << message;
+  EXPECT_TRUE(contains(message, "make the frame larger"));
 }
 
 class MarginShapes : public testing::TestWithParam<const char*> {};
@@ -286,19 +211,12 @@ TEST_P(MarginShapes, HoldThePanelWithoutOverlaps) {
       SCOPED_TRACE(std::string("base ") + base + ", digits " + std::to_string(digits));
       const Figure figure(
           {{"base", base}, {"digits", std::to_string(digits)}, {"view.size", GetParam()}});
-      for (const PathItem& path : figure.paths) {
-        EXPECT_TRUE(holds(figure.bounds, path.points.bounds()));
-      }
-      for (std::size_t i = 0; i < figure.texts.size(); ++i) {
-        const Rect box = box_of(figure.texts[i], fonts);
-        EXPECT_TRUE(holds(figure.bounds, box)) << figure.texts[i].text;
-        for (const Rect& band : figure.bands) {
-          EXPECT_FALSE(overlap(box, band)) << figure.texts[i].text;
-        }
-        for (std::size_t k = 0; k < i; ++k) {
-          EXPECT_FALSE(overlap(box, box_of(figure.texts[k], fonts)))
-              << figure.texts[i].text << " and " << figure.texts[k].text;
-        }
+      const Rect& bounds = figure.plates.front().bounds;
+      const std::vector<Box> boxes = boxes_of(figure.texts, fonts);
+      EXPECT_EQ(text_problem(boxes, bounds), "");
+      for (const PathItem& path : figure.paths) EXPECT_TRUE(bounds.holds(path.points.bounds()));
+      for (const Rect& band : figure.bands) {
+        for (const Box& box : boxes) EXPECT_FALSE(overlap(box, band)) << box.what;
       }
     }
   }

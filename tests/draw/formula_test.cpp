@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
-#include <algorithm>
-#include <cstring>
 #include <string>
 #include <vector>
 
-#include "draw/canvas.hpp"
 #include "draw/extent.hpp"
+#include "draw/found_items.hpp"
 
 namespace piblocks {
 namespace {
@@ -23,23 +21,16 @@ class Formulas : public testing::Test {
   double width_em(Face face, const std::string& text) const {
     return fonts_.of(face).width_em(text);
   }
-  static std::vector<DrawItem> items_of(const Formula& formula) {
+  static std::vector<DrawItem> items_in(const Formula& formula) {
     std::vector<DrawItem> items;
     formula.add_to(items, ItemId::title, {0, 0}, kSize_px, Color{});
     return items;
   }
   static std::vector<TextItem> texts_of(const Formula& formula) {
-    std::vector<TextItem> texts;
-    for (const DrawItem& item : items_of(formula)) {
-      if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(*text);
-    }
-    return texts;
+    return items_of<TextItem>(items_in(formula), ItemId::title);
   }
   static Rect root_sign_of(const Formula& formula) {
-    for (const DrawItem& item : items_of(formula)) {
-      if (const auto* path = std::get_if<PathItem>(&item)) return path->points.bounds();
-    }
-    return {};
+    return items_of<PathItem>(items_in(formula), ItemId::title).at(0).points.bounds();
   }
 
   Fonts fonts_;
@@ -78,10 +69,10 @@ TEST_F(Formulas, RefuseWhatIsNotUtf8) {
 TEST_F(Formulas, HaveRisingIds) {
   const Formula formula = set_.root(set_.lowered(set_.italic("m"), set_.text("1"))) +
                           set_.text(" v² and 10⁻³") + set_.symbol("⌋");
-  const std::vector<DrawItem> items = items_of(formula);
+  const std::vector<DrawItem> items = items_in(formula);
   EXPECT_GT(items.size(), 4U);
   for (std::size_t n = 0; n < items.size(); ++n) {
-    EXPECT_EQ(std::visit([](const auto& any) { return any.id; }, items[n]), nth(ItemId::title, n));
+    EXPECT_EQ(id_of(items[n]), nth(ItemId::title, n));
   }
 }
 
@@ -175,18 +166,12 @@ TEST_F(Formulas, DigitsAreEquallyWide) {
 
 /// The pixels that are not white.
 Rect ink_of(const TextItem& text, int side_px) {
-  Canvas canvas(side_px, side_px);
-  canvas.paint({side_px, side_px, Color{255, 255, 255}, {text}});
-  const ImageView image = canvas.view();
+  const auto words = painted({side_px, side_px, Color{255, 255, 255}, {text}});
   Rect ink;
-  for (int y = 0; y < side_px; ++y) {
-    for (int x = 0; x < side_px; ++x) {
-      std::uint32_t pixel = 0;
-      std::memcpy(&pixel, image.row(y) + 4 * x, 4);
-      if ((pixel & 0xFFFFFF) == 0xFFFFFF) continue;
-      const Rect here{double(x), double(y), 1, 1};
-      ink = ink.width == 0 ? here : ink | here;
-    }
+  for (int i = 0; i < side_px * side_px; ++i) {
+    if ((words[std::size_t(i)] & 0xFFFFFF) == 0xFFFFFF) continue;
+    const Rect here{double(i % side_px), double(i / side_px), 1, 1};
+    ink = ink.width == 0 ? here : ink | here;
   }
   return ink;
 }

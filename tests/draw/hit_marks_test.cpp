@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <stop_token>
 #include <string>
 
@@ -152,11 +151,10 @@ TEST(HitMarks, OfTheWallAndOfBlocksAreInTheCornersAboveTheLowerBody) {
     ASSERT_EQ(items.size(), 2U);
     const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front().bounds;
     const auto red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
-    const auto bottom = [](const Rect& r) { return r.bottom(); };
-    EXPECT_LT(bottom(items[0].points.bounds()), blue.y);
-    EXPECT_LT(bottom(items[1].points.bounds()), std::max(blue.y, red.y));
-    const double contact = arc_of(items[1]).centre.x;
     const Rect arc = items[1].points.bounds();
+    EXPECT_LT(items[0].points.bounds().bottom(), blue.y);
+    EXPECT_LT(arc.bottom(), std::max(blue.y, red.y));
+    const double contact = arc_of(items[1]).centre.x;
     EXPECT_EQ(arc.x < contact, blue.height <= red.height);
     EXPECT_EQ(arc.right() > contact, red.height <= blue.height);
   }
@@ -174,9 +172,9 @@ TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
     if (const auto seen = loupe_in(frame)) {
       EXPECT_TRUE(items_of<PathItem>(seen->list.items, ItemId::hits).empty());
     }
-    // Hits cost time and are found out only where they are shown.
+    // Hits cost time and are found out only where they are shown, or what they sweep is.
     const Schedule schedule = make_schedule(frames.scene(), frames.log());
-    EXPECT_EQ(frames.film_state(schedule, 220).hits_per_s, 0);
+    EXPECT_EQ(frames.film_state(schedule, 220).hits_per_s > 0, loupe_in(frame).has_value());
   }
 }
 

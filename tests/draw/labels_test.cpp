@@ -1,63 +1,19 @@
 // What is written and drawn beside the blocks keeps clear of them, of the wall and of each other.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "draw/composition.hpp"
-#include "draw/font.hpp"
+#include "draw/composed_pictures.hpp"
 #include "draw/look.hpp"
-#include "support/state_after.hpp"
 
 namespace piblocks {
 namespace {
-
-using Settings = std::vector<std::pair<const char*, std::string>>;
-
-class Labels {
- public:
-  Labels(int digits, const Settings& settings)
-      : scene_(scene_with(digits, settings)),
-        log_(make_pair_log(scene_.system)),
-        composition_(scene_, *log_) {}
-
-  DrawList at(const Rational& time) const {
-    return composition_.frame({log_->state_at(time), time});
-  }
-  DrawList after(int count) const { return composition_.frame({bodies_after(*log_, count)}); }
-
- private:
-  static Scene scene_with(int digits, const Settings& settings) {
-    ScriptBuilder builder;
-    builder.set("test", "digits", std::to_string(digits));
-    for (const auto& [key, text] : settings) builder.set("test", key, text);
-    return builder.build_scene();
-  }
-
-  Scene scene_;
-  std::unique_ptr<PairLog> log_;
-  Composition composition_;
-};
-
-bool shows(ItemId item, ItemId thing) {
-  return static_cast<std::uint32_t>(item) >> 16 == static_cast<std::uint32_t>(thing) >> 16;
-}
-
-std::vector<TextItem> texts_of(const DrawList& list, ItemId thing) {
-  std::vector<TextItem> texts;
-  for (const DrawItem& item : list.items) {
-    const auto* text = std::get_if<TextItem>(&item);
-    if (text != nullptr && shows(text->id, thing)) texts.push_back(*text);
-  }
-  return texts;
-}
 
 double right_of_wall(const DrawList& list) {
   const Rect& wall = std::get<RectangleItem>(list.items.front()).bounds;
@@ -67,12 +23,9 @@ double right_of_wall(const DrawList& list) {
 /// From the leftmost to the rightmost point of an arrow; the wrong way round if none is drawn.
 std::pair<double, double> reach_of_arrow(const DrawList& list, std::size_t n) {
   std::pair<double, double> reach{1e9, -1e9};
-  for (const DrawItem& item : list.items) {
-    const auto* path = std::get_if<PathItem>(&item);
-    if (path == nullptr ||
-        (path->id != nth(ItemId::velocities, n) && path->id != nth(ItemId::velocities, n + 1))) {
-      continue;
-    }
+  for (const std::size_t part : {n, n + 1}) {
+    const auto* const path = find_item<PathItem>(list, nth(ItemId::velocities, part));
+    if (path == nullptr) continue;
     const Rect& bounds = path->points.bounds();
     reach = {std::min(reach.first, bounds.x), std::max(reach.second, bounds.right())};
   }
@@ -81,10 +34,10 @@ std::pair<double, double> reach_of_arrow(const DrawList& list, std::size_t n) {
 
 TEST(Labels, ArrowsOfVelocitiesNeverMeet) {
   for (const char* width : {"1/2", "1", "3/2"}) {
-    const Labels labels(3, {{"show.overlays", "velocities"}, {"red.width", width}});
+    const Pictures pictures(3, {{"show.overlays", "velocities"}, {"red.width", width}});
     int pairs = 0;
     for (int count = 1; count <= 314; ++count) {
-      const DrawList list = labels.after(count);
+      const DrawList list = pictures.after(count);
       const auto red = reach_of_arrow(list, 0);
       const auto blue = reach_of_arrow(list, 4);
       EXPECT_LT(blue.second, red.first) << count;
@@ -98,9 +51,9 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
   const Font font;
   for (const int digits : {3, 9, 20}) {
     for (const char* size : {"1920x1080", "640x360", "450x800"}) {
-      const Labels labels(digits, {{"show.overlays", "velocities"}, {"view.size", size}});
-      const DrawList list = labels.at(Rational(7, 2));
-      const std::vector<TextItem> figures = texts_of(list, ItemId::velocities);
+      const Pictures pictures(digits, {{"show.overlays", "velocities"}, {"view.size", size}});
+      const DrawList list = pictures.at(Rational(7, 2));
+      const std::vector<TextItem> figures = items_of<TextItem>(list.items, ItemId::velocities);
       ASSERT_EQ(figures.size(), 2U);
       const TextItem& blue = figures[1];
       EXPECT_GT(blue.origin.x, right_of_wall(list));
@@ -109,41 +62,27 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
   }
 }
 
-/// From the left of the first to the right of the last figure, and around the line.
-Rect bounds_of(const TextItem& text, const Fonts& fonts) {
-  return {text.origin.x, text.origin.y - text.size_px,
-          fonts.of(text.face).width_em(text.text) * text.size_px, 1.2 * text.size_px};
-}
-
 /// A mass is whole in the frame: on its block, or clear of it.
 void expect_mass_of(const DrawList& list, ItemId thing, std::size_t n, const Fonts& fonts) {
-  std::optional<Rect> block;
-  for (const DrawItem& item : list.items) {
-    const auto* rectangle = std::get_if<RectangleItem>(&item);
-    if (rectangle != nullptr && rectangle->id == thing) block = rectangle->bounds;
-  }
+  const auto* const block = find_item<RectangleItem>(list, thing);
   ASSERT_TRUE(block);
-  const double seen =
-      std::min(double(list.width_px), block->x + block->width) - std::max(0.0, block->x);
+  const Rect& place = block->bounds;
+  const double seen = std::min(double(list.width_px), place.right()) - std::max(0.0, place.x);
   if (seen < 1) return;
-  std::optional<TextItem> mass;
-  for (const TextItem& text : texts_of(list, ItemId::masses)) {
-    if (text.id == nth(ItemId::masses, n)) mass = text;
-  }
+  const auto* const mass = find_item<TextItem>(list, nth(ItemId::masses, n));
   ASSERT_TRUE(mass) << "the mass is gone, and " << seen << " pixels of its block are seen";
-  const Rect text = bounds_of(*mass, fonts);
+  const Box text = box_of(*mass, fonts);
   EXPECT_GE(text.x, 0);
   EXPECT_LE(text.right(), list.width_px);
-  const bool is_on =
-      text.x >= block->x && text.right() <= block->x + block->width && text.y > block->y - 1;
-  const bool is_above = mass->origin.y < block->y;
-  const bool is_beside = text.right() <= block->x || text.x >= block->x + block->width;
-  EXPECT_TRUE(is_on || is_above || is_beside) << text.x << " on " << block->x;
+  const bool is_on = text.x >= place.x && text.right() <= place.right() && text.y > place.y - 1;
+  const bool is_above = mass->origin.y < place.y;
+  const bool is_beside = text.right() <= place.x || text.x >= place.right();
+  EXPECT_TRUE(is_on || is_above || is_beside) << text.x << " on " << place.x;
 }
 
 TEST(Labels, AMassStaysWhileItsBlockIsInSight) {
   const Fonts fonts;
-  int pictures = 0;
+  int instants = 0;
   for (const char* theme : {"lecture", "lecture-light", "article"}) {
     for (const char* size : {"1280x720", "1080x1920", "720x720"}) {
       for (const Settings& more : std::vector<Settings>{
@@ -153,43 +92,41 @@ TEST(Labels, AMassStaysWhileItsBlockIsInSight) {
                {{"red.mass", "1/100"}, {"blue.velocity", "1"}, {"red.position", "9"}},
                {{"red.mass", "1"}, {"blue.velocity", "2"}}}) {
         SCOPED_TRACE(std::string(theme) + " " + size + (more.empty() ? "" : more.front().second));
-        Settings all = {{"show.overlays", "masses"}, {"view.theme", theme}, {"view.size", size}};
-        all.insert(all.end(), more.begin(), more.end());
-        std::optional<Labels> labels;
+        const Settings all =
+            Settings{{"show.overlays", "masses"}, {"view.theme", theme}, {"view.size", size}} +
+            more;
+        std::optional<Pictures> pictures;
         try {
-          labels.emplace(2, all);
+          pictures.emplace(2, all);
         } catch (const UsageError&) {  // no room
           continue;
         }
         for (Rational time = 0; time < 20; time += Rational(1, 8)) {
           SCOPED_TRACE(time.get_str());
-          const DrawList list = labels->at(time);
+          const DrawList list = pictures->at(time);
           expect_mass_of(list, ItemId::red_block, 0, fonts);
           expect_mass_of(list, ItemId::blue_block, 1, fonts);
           if (HasFailure()) return;
-          ++pictures;
+          ++instants;
         }
       }
     }
   }
-  EXPECT_GT(pictures, 3000);
+  EXPECT_GT(instants, 3000);
 }
 
 /// Half a figure, at the frame's edge, is another number.
 TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
   const Font font;
   const auto expect_whole = [&](const Range& view, const char* red_position, std::size_t count) {
-    ScriptBuilder builder;
-    builder.set("test", "show.overlays", "velocities");
-    builder.set("test", "view.size", "640x360");
-    builder.set("test", "blue.velocity", "-7654321");
-    builder.set("test", "red.velocity", "-1234567");
-    builder.set("test", "red.position", red_position);
-    Scene scene = builder.build_scene();
+    Scene scene = scene_with({{"show.overlays", "velocities"},
+                              {"view.size", "640x360"},
+                              {"blue.velocity", "-7654321"},
+                              {"red.velocity", "-1234567"},
+                              {"red.position", red_position}});
     scene.view.x = view;
-    const auto log = make_pair_log(scene.system);
     const std::vector<TextItem> figures =
-        texts_of(Composition(scene, *log).frame({log->state_at(0)}), ItemId::velocities);
+        items_of<TextItem>(Pictures(scene).at(0).items, ItemId::velocities);
     EXPECT_EQ(figures.size(), count) << red_position;
     for (const TextItem& figure : figures) {
       EXPECT_GE(figure.origin.x, 0) << red_position;
@@ -242,10 +179,10 @@ bool has_level_line_at(const DrawList& list, double y) {
 TEST(Labels, FiguresOfTheRulerStandBelowTheirMarks) {
   const Font font;
   for (const char* size : {"640x360", "480x360", "1080x1920", "3840x2160", "1600x300"}) {
-    const Labels labels(3, {{"show.overlays", "ruler"}, {"view.size", size}});
-    const DrawList list = labels.at(0);
+    const Pictures pictures(3, {{"show.overlays", "ruler"}, {"view.size", size}});
+    const DrawList list = pictures.at(0);
     const Rect& wall = std::get<RectangleItem>(list.items.front()).bounds;
-    const std::vector<TextItem> figures = texts_of(list, ItemId::ruler);
+    const std::vector<TextItem> figures = items_of<TextItem>(list.items, ItemId::ruler);
     EXPECT_GT(figures.size(), 3U);
     for (const TextItem& figure : figures) {
       const double width_px = font.width_em(figure.text) * figure.size_px;
@@ -263,16 +200,10 @@ TEST(Labels, FiguresOfTheRulerStandBelowTheirMarks) {
 /// Texts of a diagram that are numbers, without their exponents.
 std::vector<TextItem> figures_of_diagram(const DrawList& list) {
   std::vector<TextItem> figures;
-  for (const DrawItem& item : list.items) {
-    const auto* plate = std::get_if<PlateItem>(&item);
-    if (plate == nullptr) continue;
-    for (const DrawItem& inner : plate->plate->items) {
-      const auto* text = std::get_if<TextItem>(&inner);
-      if (text == nullptr) continue;
-      const bool is_number = text->text.find_first_of("0123456789") < 4;
-      const bool is_raised = !figures.empty() && text->size_px < 0.9 * figures.front().size_px;
-      if (is_number && !is_raised) figures.push_back(*text);
-    }
+  for (const TextItem& text : Shown(list).texts) {
+    const bool is_number = text.text.find_first_of("0123456789") < 4;
+    const bool is_raised = !figures.empty() && text.size_px < 0.9 * figures.front().size_px;
+    if (is_number && !is_raised) figures.push_back(text);
   }
   return figures;
 }
@@ -284,11 +215,11 @@ TEST(Labels, FiguresOfDiagramsAreCentredOnTheirMarks) {
   for (const char* panel : {"time", "count"}) {
     for (const int digits : {1, 3, 9, 60}) {
       for (const char* end : {"3", "4", "9.99", "10", "20000", "1e9", "1e-7"}) {
-        const Labels labels(digits, {{"show.panels", panel},
-                                     {"view.size", "640x360"},
-                                     {"time.from", "0"},
-                                     {"time.to", end}});
-        const DrawList list = labels.at(0);
+        const Pictures pictures(digits, {{"show.panels", panel},
+                                         {"view.size", "640x360"},
+                                         {"time.from", "0"},
+                                         {"time.to", end}});
+        const DrawList list = pictures.at(0);
         for (const TextItem& figure : figures_of_diagram(list)) {
           const double width_px = font.width_em(figure.text) * figure.size_px;
           const bool is_below = has_upright_line_at(list, figure.origin.x + width_px / 2);
@@ -309,24 +240,18 @@ TEST(Labels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
   const Fonts fonts;
   std::vector<double> lengths_em;
   for (const char* size : {"1920x1080", "1440x1080", "1080x1080", "480x360"}) {
-    const Labels labels(6, {{"view.size", size}, {"show.panels", "velocity,position"}});
-    const DrawList list = labels.at(4);
+    const Pictures pictures(6, {{"view.size", size}, {"show.panels", "velocity,position"}});
+    const DrawList list = pictures.at(4);
     double& length_em = lengths_em.emplace_back(0);
-    for (const DrawItem& item : list.items) {
-      const auto* plate = std::get_if<PlateItem>(&item);
-      if (plate == nullptr) continue;
-      // The title comes first.
-      const auto first = std::ranges::find_if(plate->plate->items, [](const DrawItem& inner) {
-        return std::holds_alternative<TextItem>(inner);
-      });
-      const double baseline = std::get<TextItem>(*first).origin.y;
-      for (const DrawItem& inner : plate->plate->items) {
-        const auto* text = std::get_if<TextItem>(&inner);
-        if (text == nullptr || text->origin.y != baseline) continue;
-        const double width_em = fonts.of(text->face).width_em(text->text);
-        EXPECT_GE(text->size_px, style::kLeastType * std::min(list.width_px, list.height_px));
-        EXPECT_LE(text->origin.x + width_em * text->size_px, plate->bounds.right())
-            << text->text << " in " << size;
+    for (const PlateItem& plate : Shown(list).plates) {
+      const auto texts = items_of<TextItem>(plate.plate->items);
+      for (const TextItem& text : texts) {
+        // The title comes first.
+        if (text.origin.y != texts.front().origin.y) continue;
+        const double width_em = fonts.of(text.face).width_em(text.text);
+        EXPECT_GE(text.size_px, style::kLeastType * std::min(list.width_px, list.height_px));
+        EXPECT_LE(text.origin.x + width_em * text.size_px, plate.bounds.right())
+            << text.text << " in " << size;
         length_em += width_em;
       }
     }

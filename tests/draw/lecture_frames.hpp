@@ -2,27 +2,16 @@
 // In: settings of a scene. Out: draw lists, and their items by what they show.
 #pragma once
 
-#include <piblocks/script.hpp>
-
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "draw/composition.hpp"
+#include "draw/composed_pictures.hpp"
 #include "render/frame_state.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
-
-using Settings = std::vector<std::pair<const char*, std::string>>;
-
-inline Scene scene_with(const Settings& settings) {
-  ScriptBuilder builder;
-  for (const auto& [key, text] : settings) builder.set("test", key, text);
-  return builder.build_scene();
-}
 
 class Frames {
  public:
@@ -42,7 +31,8 @@ class Frames {
   /// A frame of the film, with its hits.
   FrameState film_state(const Schedule& schedule, std::int64_t number) const {
     const Rational video_s = Rational(number) / scene_.view.frame_rate;
-    return frame_state(*log_, schedule.at(video_s), composition_.needs(), 1, {schedule, video_s});
+    return frame_state(*log_, schedule.at(video_s), composition_.needs(), 1,
+                       VideoTime{schedule, video_s});
   }
 
  private:
@@ -50,21 +40,6 @@ class Frames {
   std::unique_ptr<Log> log_;
   Composition composition_;
 };
-
-inline bool shows(ItemId item, ItemId thing) {
-  return static_cast<std::uint32_t>(item) >> 16 == static_cast<std::uint32_t>(thing) >> 16;
-}
-
-/// All items of a kind that show one thing.
-template <typename Item>
-std::vector<Item> items_of(const std::vector<DrawItem>& items, ItemId thing) {
-  std::vector<Item> found;
-  for (const DrawItem& item : items) {
-    const auto* one = std::get_if<Item>(&item);
-    if (one != nullptr && shows(one->id, thing)) found.push_back(*one);
-  }
-  return found;
-}
 
 /// What the loupe shows, in pixels of its inset.
 struct SeenLoupe {
@@ -101,11 +76,6 @@ inline std::optional<SeenLoupe> loupe_in(const DrawList& frame) {
 // Of the loupe's tests.
 inline Settings lecture(int digits, const char* size = "1280x720") {
   return {{"digits", std::to_string(digits)}, {"view.theme", "lecture"}, {"view.size", size}};
-}
-
-inline Settings operator+(Settings settings, const Settings& more) {
-  settings.insert(settings.end(), more.begin(), more.end());
-  return settings;
 }
 
 inline double pixels_per_unit(const DrawList& frame, const Scene& scene) {

@@ -7,7 +7,7 @@
 
 #include "draw/lecture_frames.hpp"
 #include "draw/turned_round.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -82,8 +82,7 @@ void expect_enlarged(const Scene& plain, const Collision& met, int& seen_times) 
 }
 
 TEST(LoupeGap, EnlargesAnyGapThatClosesInItsWindow) {
-  Random random(3411);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(3411);
   int seen_times = 0;
   for (std::int64_t i = 0; i < many(60); ++i) {
     const Scene scene = row_of_blocks(random, i % 2 == 0);
@@ -125,7 +124,7 @@ TEST(LoupeGap, ShowsAFixedBlockAsOne) {
   Scene scene = scene_with(lecture(3));
   scene.system.bodies.push_back({std::nullopt, {-1}});
   scene.system.walls.clear();
-  for (Body& body : scene.system.bodies) body.name.clear();
+  scene = as_bodies(scene);
   scene.styles.resize(3);
   scene.view.x = {-2, 8};
   const Frames frames(scene);

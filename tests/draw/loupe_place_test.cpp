@@ -4,67 +4,46 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
-#include "draw/font.hpp"
 #include "draw/lecture_frames.hpp"
 #include "draw/turned_round.hpp"
 
 namespace piblocks {
 namespace {
 
-/// A place that something takes.
-struct Taken {
-  std::string what;
-  double left;
-  double top;
-  double right;
-  double bottom;
-};
-
-Taken taken(std::string what, const Rect& r) {
-  return {std::move(what), r.x, r.y, r.right(), r.bottom()};
-}
-
 /// What the loupe must not cover: texts and blocks. Its own texts are checked against these too.
-std::vector<Taken> places(const DrawList& frame, const Fonts& fonts) {
-  std::vector<Taken> found;
+std::vector<Box> places(const DrawList& frame, const Fonts& fonts) {
+  std::vector<Box> found;
   for (const DrawItem& item : frame.items) {
     if (const auto* text = std::get_if<TextItem>(&item)) {
-      const double width = fonts.of(text->face).width_em(text->text) * text->size_px;
-      found.push_back({shows(text->id, ItemId::loupe) ? "zoom" : text->text, text->origin.x,
-                       text->origin.y - Font::kCapHeight_em * text->size_px, text->origin.x + width,
-                       text->origin.y + 0.22 * text->size_px});
+      found.push_back(box_of(*text, fonts));
+      if (shows(text->id, ItemId::loupe)) found.back().what = "zoom";
     }
     const auto* box = std::get_if<RectangleItem>(&item);
-    if (box != nullptr && shows(box->id, ItemId::red_block)) {
-      found.push_back(taken("red", box->bounds));
-    }
+    if (box != nullptr && shows(box->id, ItemId::red_block)) found.push_back({box->bounds, "red"});
     if (box != nullptr && shows(box->id, ItemId::blue_block)) {
-      found.push_back(taken("blue", box->bounds));
+      found.push_back({box->bounds, "blue"});
     }
     const auto* plate = std::get_if<PlateItem>(&item);
     if (plate != nullptr && plate->id >= ItemId::panels) {
-      found.push_back(taken("panel", plate->bounds));
+      found.push_back({plate->bounds, "panel"});
     }
     const auto* group = std::get_if<GroupItem>(&item);
-    if (group != nullptr) found.push_back(taken("loupe", group->bounds));
+    if (group != nullptr) found.push_back({group->bounds, "loupe"});
   }
   return found;
 }
 
 void expect_apart(const DrawList& frame, const Fonts& fonts) {
-  const std::vector<Taken> all = places(frame, fonts);
-  for (const Taken& one : all) {
+  const std::vector<Box> all = places(frame, fonts);
+  for (const Box& one : all) {
     if (one.what != "loupe" && one.what != "zoom") continue;
-    EXPECT_GE(one.left, 0) << one.what;
-    EXPECT_LE(one.right, frame.width_px) << one.what;
-    for (const Taken& other : all) {
+    EXPECT_GE(one.x, 0) << one.what;
+    EXPECT_LE(one.right(), frame.width_px) << one.what;
+    for (const Box& other : all) {
       const bool is_inside = one.what == "zoom" && other.what == "loupe";
       if (other.what == "zoom" || other.what == one.what || is_inside) continue;
-      const bool overlap = one.left < other.right && other.left < one.right &&
-                           one.top < other.bottom && other.top < one.bottom;
-      EXPECT_FALSE(overlap) << one.what << " and " << other.what;
+      EXPECT_FALSE(one.meets(other)) << one.what << " and " << other.what;
     }
   }
 }

@@ -5,18 +5,20 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
 #include "draw/canvas.hpp"
-#include "draw/font.hpp"
 #include "draw/lecture_frames.hpp"
+#include "support/contains.hpp"
+#include "support/message_of.hpp"
 #include "support/oracle.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
+using testing_support::contains;
+using testing_support::message_of;
 
 struct ExactGaps {
   Rational y1;
@@ -51,8 +53,7 @@ void expect_exact(const Frames& frames, const Rational& time, int& plateaus) {
 }
 
 TEST(Loupe, ShowsTheGapsWhereTheyAre) {
-  Random random(202611);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(202611);
   for (const int digits : {3, 5, 20}) {
     SCOPED_TRACE(digits);
     const Frames frames(lecture(digits));
@@ -70,13 +71,17 @@ TEST(Loupe, ShowsTheGapsWhereTheyAre) {
   }
 }
 
+/// What all texts of a thing say.
+std::string texts_of(const DrawList& list, ItemId thing) {
+  std::string all;
+  for (const auto& item : items_of<TextItem>(list.items, thing)) all += item.text;
+  return all;
+}
+
 TEST(Loupe, SaysPowersOfTenAtTheTurn) {
   const auto power_at_turn = [](int digits) {
     const Frames frames(lecture(digits));
-    const DrawList frame = frames.at(frames.turn());
-    std::string text;
-    for (const auto& item : items_of<TextItem>(frame.items, ItemId::loupe)) text += item.text;
-    return text;
+    return texts_of(frames.at(frames.turn()), ItemId::loupe);
   };
   EXPECT_EQ(power_at_turn(3), "×100");
   EXPECT_EQ(power_at_turn(4), "×1,000");
@@ -166,28 +171,19 @@ TEST(Loupe, OfAWindowHasItsZoomAndIsNotSeenOutside) {
 }
 
 std::string refusal_of(const Settings& settings) {
-  try {
-    const Frames frames(settings);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
+  return message_of<Error>([&] { Frames{settings}; });
 }
 
 TEST(Loupe, SaysWhyItCannotBeShown) {
   const Settings window = {{"show.loupe", "turn-1:turn+1:10"}};
-  EXPECT_NE(refusal_of(lecture(3, "200x150") + window).find("show.loupe: there is no room"),
-            std::string::npos);
+  EXPECT_TRUE(contains(refusal_of(lecture(3, "200x150") + window), "show.loupe: there is no room"));
   EXPECT_EQ(refusal_of(lecture(3, "200x150")), "");
   Scene away = scene_with(lecture(3) + window);
   away.view.x = {1, 12};
   EXPECT_THROW(Frames{away}, UsageError);
-  EXPECT_NE(refusal_of(lecture(3) + Settings{{"show.loupe", "last:#1:10"}}).find("show.loupe"),
-            std::string::npos);
   for (const char* wrong :
-       {"on", "turn:last", "turn:last:1", "3:2:10", "turn:last:ten", "1:2:3:4"}) {
-    EXPECT_NE(refusal_of(lecture(3) + Settings{{"show.loupe", wrong}}).find("show.loupe"),
-              std::string::npos)
+       {"last:#1:10", "on", "turn:last", "turn:last:1", "3:2:10", "turn:last:ten", "1:2:3:4"}) {
+    EXPECT_TRUE(contains(refusal_of(lecture(3) + Settings{{"show.loupe", wrong}}), "show.loupe"))
         << wrong;
   }
 }
@@ -195,7 +191,7 @@ TEST(Loupe, SaysWhyItCannotBeShown) {
 TEST(Loupe, IsRefusedWhereItIsNeverSeen) {
   const auto expect = [](int digits, const char* window, const char* message) {
     const std::string refusal = refusal_of(lecture(digits) + Settings{{"show.loupe", window}});
-    EXPECT_NE(refusal.find(message), std::string::npos) << window << ": " << refusal;
+    EXPECT_TRUE(contains(refusal, message)) << window;
     EXPECT_EQ(refusal.find('\n'), std::string::npos);
   };
   expect(1, "turn-0.3:turn+0.3:10",
@@ -243,19 +239,14 @@ TEST(Loupe, ShowsTheWayThatBlueSweepsWhereFramesMissItsHits) {
 
 TEST(Loupe, SaysHowMuchSlowerTimeRuns) {
   const Frames frames(lecture(3) + Settings{{"time.slow-motion", "turn-0.1:turn+0.1:100"}});
-  const auto texts = [](const std::vector<DrawItem>& items, ItemId thing) {
-    std::string text;
-    for (const auto& item : items_of<TextItem>(items, thing)) text += item.text;
-    return text;
-  };
   FrameState state = frames.state({frames.turn(), Rational(100)});
   DrawList frame = frames.of(state);
-  EXPECT_EQ(texts(loupe_in(frame)->list.items, ItemId::label), "100× slower");
-  EXPECT_EQ(texts(frame.items, ItemId::read_outs), "");
+  EXPECT_EQ(texts_of(loupe_in(frame)->list, ItemId::label), "100× slower");
+  EXPECT_EQ(texts_of(frame, ItemId::read_outs), "");
   state.gaps.y2 = 2;
   frame = frames.of(state);
   EXPECT_FALSE(loupe_in(frame));
-  EXPECT_EQ(texts(frame.items, ItemId::read_outs), "100× slower");
+  EXPECT_EQ(texts_of(frame, ItemId::read_outs), "100× slower");
 }
 
 TEST(Loupe, LeavesNoRoomForALabelThatItDoesNotHave) {

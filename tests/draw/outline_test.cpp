@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "draw/cairo_handles.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -93,8 +93,7 @@ void expect_line(const std::vector<Point>& points, bool closed, double width_px)
 }
 
 TEST(Outline, OfRandomLinesCoversThemAndNothingElse) {
-  Random random(5);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(5);
   for (int i = 0; i < 60 && !::testing::Test::HasFailure(); ++i) {
     const std::vector<Point> points = random_points(random, random.integer(2, 9));
     SCOPED_TRACE(i);

@@ -2,11 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "draw/composed_pictures.hpp"
-#include "support/state_after.hpp"
 
 namespace piblocks {
 namespace {
@@ -14,9 +11,9 @@ namespace {
 constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,time,ruler";
 
 TEST(Overlays, DigitsLightUpInTheirPlaces) {
-  const Pictures pictures(scene_with(5, {{"show.overlays", "digits"}}));
+  const Pictures pictures(5, {{"show.overlays", "digits"}});
   const auto lit_after = [&](const char* count) {
-    const DrawList list = pictures.composition.frame({bodies_after(*pictures.log, Integer(count))});
+    const DrawList list = pictures.after(Integer(count));
     return text_of(list, ItemId::lit_count) + "|" + text_of(list, ItemId::count);
   };
   EXPECT_EQ(lit_after("3141"), "|3,141");
@@ -29,8 +26,8 @@ TEST(Overlays, DigitsLightUpInTheirPlaces) {
 
 TEST(Overlays, DigitsLightUpInTheirBase) {
   const auto lit_after = [](const char* base, int digits, int count) {
-    const Pictures pictures(scene_with(digits, {{"base", base}, {"show.overlays", "digits"}}));
-    const DrawList list = pictures.composition.frame({bodies_after(*pictures.log, count)});
+    const Pictures pictures(digits, {{"base", base}, {"show.overlays", "digits"}});
+    const DrawList list = pictures.after(count);
     return text_of(list, ItemId::lit_count) + "|" + text_of(list, ItemId::count);
   };
   EXPECT_EQ(lit_after("2", 5, 31), "|11111");
@@ -41,9 +38,8 @@ TEST(Overlays, DigitsLightUpInTheirBase) {
 }
 
 TEST(Overlays, ReadOutsSayWhatIs) {
-  const Pictures pictures(
-      scene_with(2, {{"show.overlays", "time,energy,momentum,masses,velocities"},
-                     {"time.slow-motion", "3:4:10"}}));
+  const Pictures pictures(2, {{"show.overlays", "time,energy,momentum,masses,velocities"},
+                              {"time.slow-motion", "3:4:10"}});
   const DrawList start = pictures.at(0);
   EXPECT_TRUE(has_text(start, "t = 0.000"));
   EXPECT_TRUE(has_text(start, "Energy: red 50.0000 + blue 0.0000 = 50.0000"));
@@ -53,7 +49,7 @@ TEST(Overlays, ReadOutsSayWhatIs) {
   EXPECT_FALSE(has_text(start, "10× slower"));
   EXPECT_TRUE(has_text(pictures.at(Rational(7, 2), 10), "10× slower"));
   // The first collision, of masses 1 and 100: blue leaves with 200/101, red with -99/101.
-  const DrawList first = pictures.composition.frame({bodies_after(*pictures.log, 1)});
+  const DrawList first = pictures.after(1);
   EXPECT_TRUE(has_text(first, "Momentum: red −98.020, blue −1.980, sum −100.000"));
   EXPECT_TRUE(has_text(first, "−1.98"));
 }
@@ -61,13 +57,13 @@ TEST(Overlays, ReadOutsSayWhatIs) {
 /// While slow motion eases in, in whole numbers that need no more room than those of the windows.
 TEST(Overlays, PassingFactorsAreRounded) {
   const auto label = [](const Pictures& pictures, const Rational& slowdown) -> std::string {
-    for (const Box& box : texts_of(pictures.at(0, slowdown))) {
+    for (const Box& box : boxes_of(pictures.at(0, slowdown))) {
       if (box.what.ends_with("er")) return box.what;
     }
     return "";
   };
   const auto with_windows = [](const char* windows) {
-    return Pictures(scene_with(2, {{"time.slow-motion", windows}}));
+    return Pictures(2, {{"time.slow-motion", windows}});
   };
   const Pictures hundred = with_windows("2:3:100,3:4:7/2,5:6:1/20");
   EXPECT_EQ(label(hundred, Rational(1001, 1000)), "");
@@ -92,7 +88,7 @@ TEST(Overlays, PassingFactorsAreRounded) {
 }
 
 TEST(Overlays, NameNoColourThatIsNotThere) {
-  std::vector<Setting> things{{"show.overlays", kAllOverlays}};
+  Settings things{{"show.overlays", kAllOverlays}};
   for (const char* panel : {"velocity", "position", "unfolded", "time", "count", "ellipse",
                             "mirrors", "conservation", "certainty"}) {
     things.emplace_back("show.panels", panel);
@@ -100,8 +96,8 @@ TEST(Overlays, NameNoColourThatIsNotThere) {
   for (const char* theme : {"print", "colorblind"}) {
     for (const char* size : {"1920x1080", "1080x1080"}) {
       for (const Setting& thing : things) {
-        const Pictures pictures(scene_with(3, {{"view.size", size}, {"view.theme", theme}, thing}));
-        for (const Box& box : texts_of(pictures.at(3))) {
+        const Pictures pictures(3, {{"view.size", size}, {"view.theme", theme}, thing});
+        for (const Box& box : boxes_of(pictures.at(3))) {
           EXPECT_EQ(box.what.find("red"), std::string::npos) << box.what;
           EXPECT_EQ(box.what.find("blue"), std::string::npos) << box.what;
         }
@@ -111,22 +107,16 @@ TEST(Overlays, NameNoColourThatIsNotThere) {
 }
 
 TEST(Overlays, ReadOutsHoldMassesBeyondADouble) {
-  const Pictures pictures(scene_with(200, {{"show.overlays", "energy,momentum,masses"}}));
+  const Pictures pictures(200, {{"show.overlays", "energy,momentum,masses"}});
   const DrawList start = pictures.at(0);
   EXPECT_TRUE(has_text(start, "Energy ×10³⁹⁷: red 5.00000 + blue 0.00000 = 5.00000"));
   EXPECT_TRUE(has_text(start, "Momentum ×10³⁹⁸: red −1.00000, blue 0.00000, sum −1.00000"));
   EXPECT_TRUE(has_text(start, "10³⁹⁸ kg"));
 }
 
-/// "red 1.25 + blue 3.75 = 5" and the like: the number after a word.
-double number_after(std::string text, const std::string& word) {
-  std::erase(text, ',');
-  return std::stod(text.substr(text.find(word) + word.size()));
-}
-
 TEST(Overlays, EnergyIsSharedAtTheTurnOfAnyMass) {
   for (const int digits : {3, 20, 163, 200, 300}) {
-    const Pictures pictures(scene_with(digits, {{"show.overlays", "energy"}}));
+    const Pictures pictures(digits, {{"show.overlays", "energy"}});
     const std::string text = text_of(pictures.at(Rational(7, 2)), ItemId::read_outs);
     const double red = number_after(text, "red ");
     const double blue = number_after(text, "blue ");
@@ -138,11 +128,10 @@ TEST(Overlays, EnergyIsSharedAtTheTurnOfAnyMass) {
 
 TEST(Overlays, MomentumHoldsAnyMass) {
   for (const char* mass : {"1/10^310", "1/10^200", "10^310"}) {
-    const Pictures pictures(
-        scene_with(1, {{"show.overlays", "momentum,energy"}, {"red.mass", mass}}));
+    const Pictures pictures(1, {{"show.overlays", "momentum,energy"}, {"red.mass", mass}});
     for (const Rational& time : {Rational(0), Rational(3), Rational(9)}) {
       const DrawList list = pictures.at(time);
-      for (const Box& box : texts_of(list)) {
+      for (const Box& box : boxes_of(list)) {
         EXPECT_EQ(box.what.find("nan"), std::string::npos) << box.what;
         EXPECT_EQ(box.what.find("inf"), std::string::npos) << box.what;
       }
@@ -156,38 +145,26 @@ TEST(Overlays, MomentumHoldsAnyMass) {
 }
 
 TEST(Overlays, MakeRoomForInstantsOutsideOfTheSpan) {
-  const Pictures pictures(scene_with(
-      3, {{"show.overlays", "time,energy"}, {"view.size", "800x450"}, {"time.to", "5"}}));
+  const Pictures pictures(
+      3, {{"show.overlays", "time,energy"}, {"view.size", "800x450"}, {"time.to", "5"}});
   const DrawList list = pictures.at(1000000);
   EXPECT_TRUE(has_text(list, "t = 1,000,000.00"));
-  const std::vector<Box> boxes = texts_of(list);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      EXPECT_FALSE(overlap(boxes[i], boxes[k])) << boxes[i].what << " and " << boxes[k].what;
-    }
-  }
+  EXPECT_EQ(text_problem(boxes_of(list), whole_of(list)), "");
 }
 
 TEST(Overlays, AreReadableInSmallFrames) {
-  const Pictures pictures(
-      scene_with(1, {{"show.overlays", "time,energy"}, {"view.size", "320x180"}}));
-  int read_outs = 0;
-  for (const DrawItem& item : pictures.at(1).items) {
-    const auto* text = std::get_if<TextItem>(&item);
-    if (text == nullptr || text->id < ItemId::read_outs) continue;
-    ++read_outs;
-    EXPECT_GE(text->size_px, 8) << text->text;
+  const Pictures pictures(1, {{"show.overlays", "time,energy"}, {"view.size", "320x180"}});
+  const DrawList list = pictures.at(1);
+  for (const std::size_t n : {0U, 1U}) {
+    EXPECT_GE(item_of<TextItem>(list, nth(ItemId::read_outs, n)).size_px, 8) << n;
   }
-  EXPECT_EQ(read_outs, 2);
 }
 
 TEST(Overlays, TimeHasTheDecimalsThatTheSpeedNeeds) {
-  const std::vector<Setting> usual = {
-      {"show.overlays", "time"}, {"time.from", "2.5"}, {"time.to", "3.5"}};
-  const auto with = [&](const char* key, const char* text) {
-    std::vector<Setting> settings = usual;
-    settings.emplace_back(key, text);
-    return text_of(Pictures(scene_with(3, settings)).at(Rational(5, 2)), ItemId::read_outs);
+  const auto with = [](const char* key, const char* text) {
+    const Pictures pictures(
+        3, {{"show.overlays", "time"}, {"time.from", "2.5"}, {"time.to", "3.5"}, {key, text}});
+    return text_of(pictures.at(Rational(5, 2)), ItemId::read_outs);
   };
   EXPECT_EQ(with("time.speed", "1/600"), "t = 2.50000");
   EXPECT_EQ(with("time.duration", "600"), "t = 2.50000");
@@ -196,7 +173,7 @@ TEST(Overlays, TimeHasTheDecimalsThatTheSpeedNeeds) {
 
 /// A double has no more than 17 digits, and no quarter here.
 TEST(Overlays, TimeIsExactHoweverLate) {
-  const Pictures pictures(scene_with(3, {{"show.overlays", "time"}}));
+  const Pictures pictures(3, {{"show.overlays", "time"}});
   const DrawList list = pictures.at(parse_rational("123456789012345678.25"));
   EXPECT_TRUE(has_text(list, "t = 123,456,789,012,345,678.25"));
 }

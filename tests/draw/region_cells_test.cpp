@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "draw/region.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -58,8 +58,7 @@ PixelRect random_rect(Random& random, int width_px, int height_px) {
 }
 
 TEST(RegionCells, AreTheLeastRectanglesAndNoPixelIsInTwo) {
-  Random random(17);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(17);
   for (std::int64_t i = 0; i < many(300); ++i) {
     const int width_px = integer(random, 1, 90);
     const int height_px = integer(random, 1, 70);

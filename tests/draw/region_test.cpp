@@ -1,19 +1,15 @@
 // Updating a picture against painting it anew: every byte must be equal, and no pixel may change
 // outside of the rectangles that are said to have changed.
 #include <gtest/gtest.h>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "draw/canvas.hpp"
-#include "draw/composition.hpp"
+#include "draw/composed_pictures.hpp"
 #include "draw/random_items.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -21,12 +17,6 @@ namespace {
 constexpr Color kWhite = {255, 255, 255};
 constexpr Color kGreen = {10, 200, 30};
 constexpr Color kBlack = {0, 0, 0};
-
-std::uint32_t pixel(const ImageView& image, int x, int y) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, image.row(y) + 4 * x, 4);
-  return image.has_alpha ? value : value & 0xFFFFFF;
-}
 
 /// What a list has to be painted on.
 Background background_for(const DrawList& list) {
@@ -37,24 +27,13 @@ bool contains(const PixelRect& r, int x, int y) {
   return x >= r.x_px && x < r.right_px() && y >= r.y_px && y < r.bottom_px();
 }
 
-std::vector<std::uint32_t> pixels_of(const Canvas& canvas) {
-  std::vector<std::uint32_t> pixels;
-  const ImageView image = canvas.view();
-  for (int y = 0; y < image.height_px; ++y) {
-    for (int x = 0; x < image.width_px; ++x) pixels.push_back(pixel(image, x, y));
-  }
-  return pixels;
-}
-
 /// Updates `canvas`, and checks it against a fresh one.
 void expect_update(Canvas& canvas, const DrawList& list) {
-  const std::vector<std::uint32_t> before = pixels_of(canvas);
+  const std::vector<std::uint32_t> before = words_of(canvas.view());
   const auto span = canvas.update(list);
   const std::vector<PixelRect> changed(span.begin(), span.end());
-  Canvas fresh(list.width_px, list.height_px, background_for(list));
-  fresh.paint(list);
-  const std::vector<std::uint32_t> after = pixels_of(canvas);
-  const std::vector<std::uint32_t> wanted = pixels_of(fresh);
+  const std::vector<std::uint32_t> after = words_of(canvas.view());
+  const std::vector<std::uint32_t> wanted = painted(list);
   const auto wrong = std::ranges::mismatch(after, wanted).in1 - after.begin();
   ASSERT_EQ(wrong, std::ssize(after)) << "an update is not what painting gives, first at pixel "
                                       << wrong % list.width_px << ", " << wrong / list.width_px;
@@ -74,21 +53,16 @@ double area(std::span<const PixelRect> rects) {
   return sum;
 }
 
-DrawList frame(const Composition& composition, const PairLog& log, const Rational& time) {
-  return composition.frame({.state = log.state_at(time), .time = time, .gaps = log.gaps_at(time)});
-}
-
 void expect_exact_updates(Background background) {
   for (const auto& [width, height] : {std::pair{320, 180}, {101, 75}, {64, 240}}) {
-    Scene scene = ScriptBuilder().build_scene();
+    Scene scene;
     scene.view.background = background;
     scene.view.width_px = width;
     scene.view.height_px = height;
-    const auto log = make_pair_log(scene.system);
-    const Composition composition(scene, *log);
-    Canvas canvas(width, height, background_for(frame(composition, *log, 0)));
+    const Pictures pictures(scene);
+    Canvas canvas(width, height, background);
     for (int i = 0; i < 120; ++i) {
-      expect_update(canvas, frame(composition, *log, Rational(i) / 12));
+      expect_update(canvas, pictures.at(Rational(i) / 12));
       ASSERT_FALSE(testing::Test::HasFailure())
           << "frame " << i << " of " << width << "x" << height;
     }
@@ -102,33 +76,25 @@ TEST(Region, OfWholeScenesWithoutABackgroundIsExact) {
 }
 
 TEST(Region, OfAScenesFrameIsSmall) {
-  Scene scene = ScriptBuilder().build_scene();
-  scene.view.width_px = 1280;
-  scene.view.height_px = 720;
-  const auto log = make_pair_log(scene.system);
-  const Composition composition(scene, *log);
+  const Pictures pictures(scene_with({{"view.size", "1280x720"}}));
   Canvas canvas(1280, 720);
-  EXPECT_EQ(area(canvas.update(frame(composition, *log, 1))), 1280 * 720);
-  EXPECT_TRUE(canvas.update(frame(composition, *log, 1)).empty()) << "nothing has changed";
-  EXPECT_LT(area(canvas.update(frame(composition, *log, Rational(61, 60)))), 0.005 * 1280 * 720);
+  EXPECT_EQ(area(canvas.update(pictures.at(1))), 1280 * 720);
+  EXPECT_TRUE(canvas.update(pictures.at(1)).empty()) << "nothing has changed";
+  EXPECT_LT(area(canvas.update(pictures.at(Rational(61, 60)))), 0.005 * 1280 * 720);
 }
 
 TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
   for (const auto& [theme, panels] : {std::pair{"article", "velocity,time"},
                                       {"colorblind", "position,count"},
                                       {"lecture", "unfolded,ellipse"}}) {
-    ScriptBuilder builder;
-    builder.set("test", "view.size", "800x600");
-    builder.set("test", "view.theme", theme);
-    builder.set("test", "show.title", "π");
-    builder.set("test", "show.overlays", "digits,masses,velocities,time");
-    builder.set("test", "show.panels", panels);
-    const Scene scene = builder.build_scene();
-    const auto log = make_pair_log(scene.system);
-    const Composition composition(scene, *log);
+    const Pictures pictures(scene_with({{"view.size", "800x600"},
+                                        {"view.theme", theme},
+                                        {"show.title", "π"},
+                                        {"show.overlays", "digits,masses,velocities,time"},
+                                        {"show.panels", panels}}));
     Canvas canvas(800, 600);
     for (int i = 0; i < 60; ++i) {
-      expect_update(canvas, frame(composition, *log, Rational(29 + i % 45) / 9));
+      expect_update(canvas, pictures.at(Rational(29 + i % 45) / 9));
       ASSERT_FALSE(HasFailure()) << theme << ", step " << i;
     }
   }
@@ -177,8 +143,7 @@ void change(Random& random, DrawList& list) {
   for (DrawItem& item : list.items) {
     const auto kind = random.integer(0, 5);
     if (kind == 0) {
-      item = any_item(random, std::visit([](const auto& any) { return any.id; }, item),
-                      list.width_px, list.height_px);
+      item = any_item(random, id_of(item), list.width_px, list.height_px);
     } else if (auto* rectangle = std::get_if<RectangleItem>(&item); rectangle && kind < 3) {
       rectangle->bounds.x += random.uniform(-5, 5);
     } else if (auto* text = std::get_if<TextItem>(&item); text && kind < 3) {
@@ -199,10 +164,6 @@ void change(Random& random, DrawList& list) {
   }
 }
 
-ItemId id_of(const DrawItem& item) {
-  return std::visit([](const auto& any) { return any.id; }, item);
-}
-
 /// Takes an item away, or puts one in its place among the others.
 void add_or_remove(Random& random, DrawList& list) {
   const auto n = static_cast<std::size_t>(random.integer(0, 9));
@@ -216,8 +177,7 @@ void add_or_remove(Random& random, DrawList& list) {
 }
 
 TEST(Region, OfRandomPicturesIsExact) {
-  Random random(271);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(271);
   for (int i = 0; i < many(100); ++i) {
     // Some are large enough for slanted lines to be cut.
     const int larger = i % 16 == 0 ? 4 : 1;
@@ -239,8 +199,7 @@ TEST(Region, OfRandomPicturesIsExact) {
 }
 
 TEST(Region, OfItemsThatComeAndGoIsExact) {
-  Random random(828);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(828);
   for (int i = 0; i < 200; ++i) {
     const int width = static_cast<int>(random.integer(1, 90));
     const int height = static_cast<int>(random.integer(1, 70));
@@ -277,11 +236,14 @@ TEST(Region, OfOtherItemsInAnyOrderIsTheWholeFrame) {
   EXPECT_EQ(area(canvas.update({40, 30, kBlack, {count, wall}})), 40 * 30);
 }
 
+DrawList counter(const char* text) {
+  return {200, 40, kWhite, {TextItem{ItemId::count, {10, 30}, text, 20, kBlack}}};
+}
+
 /// Of two cells, one of which changes, with a line between them.
 TEST(Region, WithinAPictureIsAsSmallAsItsOwn) {
   const auto list = [](const char* text) {
-    DrawList left{200, 40, kWhite, {TextItem{ItemId::count, {10, 30}, text, 20, kBlack}}};
-    const auto cell = std::make_shared<const DrawList>(std::move(left));
+    const auto cell = std::make_shared<const DrawList>(counter(text));
     return DrawList{420, 40, kWhite, {GroupItem{ItemId::compared, {220, 0, 200, 40}, cell, 1}}};
   };
   Canvas canvas(420, 40);
@@ -309,13 +271,10 @@ TEST(Region, OfAFadeIsTheFrameOnce) {
 }
 
 TEST(Region, OfACounterStartsAtTheFirstNewDigit) {
-  const auto list = [](const char* text) {
-    return DrawList{200, 40, kWhite, {TextItem{ItemId::count, {10, 30}, text, 20, kBlack}}};
-  };
   Canvas canvas(200, 40);
-  canvas.update(list("3,141,591"));
-  const double one_digit = area(canvas.update(list("3,141,592")));
-  const double all_digits = area(canvas.update(list("4,141,592")));
+  canvas.update(counter("3,141,591"));
+  const double one_digit = area(canvas.update(counter("3,141,592")));
+  const double all_digits = area(canvas.update(counter("4,141,592")));
   EXPECT_LT(one_digit, 0.4 * all_digits);
 }
 

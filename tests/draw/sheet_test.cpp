@@ -1,15 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "draw/canvas.hpp"
-#include "draw/font.hpp"
+#include "draw/found_items.hpp"
 #include "draw/montage.hpp"
 
 namespace piblocks {
@@ -27,9 +23,7 @@ std::vector<CaptionedPicture> green(int count, int width_px, int height_px,
 
 std::vector<Rect> places_on(const DrawList& page) {
   std::vector<Rect> places;
-  for (const DrawItem& item : page.items) {
-    if (const auto* group = std::get_if<GroupItem>(&item)) places.push_back(group->bounds);
-  }
+  for (const GroupItem& group : items_of<GroupItem>(page.items)) places.push_back(group.bounds);
   return places;
 }
 
@@ -38,28 +32,17 @@ TEST(Sheet, PicturesKeepTheirShapeAndDoNotOverlap) {
     for (const auto& [width, height] : {std::pair{1920, 1080}, {1080, 1920}, {4000, 10}}) {
       const auto places = places_on(arrange(green(count, width, height), 842, 595));
       ASSERT_EQ(places.size(), std::size_t(count));
+      const Rect page = Rect{0, 0, 842, 595}.grown(-0.04 * 595);
       for (const Rect& a : places) {
         EXPECT_NEAR(a.width / a.height, double(width) / height, 1e-6 * width);
-        EXPECT_GE(a.x, 0.04 * 595);
-        EXPECT_GE(a.y, 0.04 * 595);
-        EXPECT_LE(a.right(), 842 - 0.04 * 595);
-        EXPECT_LE(a.bottom(), 595 - 0.04 * 595);
-        for (const Rect& b : places) {
-          if (&a == &b) continue;
-          EXPECT_TRUE(a.right() < b.x || b.right() < a.x || a.bottom() < b.y || b.bottom() < a.y);
-        }
+        EXPECT_TRUE(page.holds(a));
+        for (const Rect& b : places) EXPECT_TRUE(&a == &b || !a.grown(1e-9).meets(b));
       }
     }
   }
 }
 
-std::vector<TextItem> captions_on(const DrawList& page) {
-  std::vector<TextItem> captions;
-  for (const DrawItem& item : page.items) {
-    if (const auto* text = std::get_if<TextItem>(&item)) captions.push_back(*text);
-  }
-  return captions;
-}
+std::vector<TextItem> captions_on(const DrawList& page) { return items_of<TextItem>(page.items); }
 
 /// Captions have their size, are inside of the margins, below their pictures and apart.
 void expect_legible(const std::vector<TextItem>& captions, const std::vector<Rect>& places,

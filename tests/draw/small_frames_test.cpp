@@ -2,15 +2,13 @@
 // its name.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/script.hpp>
 
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "draw/composition.hpp"
-#include "draw/font.hpp"
+#include "draw/composed_pictures.hpp"
 
 namespace piblocks {
 namespace {
@@ -57,40 +55,34 @@ class Checker {
   std::string problem;
 
  private:
-  void check_inside(double left, double top, double right, double bottom, const char* what) {
-    const bool is_inside = left >= -kSlack_px && top >= -kSlack_px &&
-                           right <= list_.width_px + kSlack_px &&
-                           bottom <= list_.height_px + kSlack_px;
-    if (!is_inside) problem += std::string(what) + " leaves the frame; ";
+  void check_inside(const Rect& r, const std::string& what) {
+    if (!whole_of(list_).grown(kSlack_px).holds(r)) problem += what + " leaves the frame; ";
   }
   void check_item(const RectangleItem& item) {
     const Rect& r = item.bounds;
     if (!(r.width >= 0 && r.height >= 0)) problem += "a rectangle of negative size; ";
-    if (item.id == ItemId::wall) {
-      check_inside(r.x, r.y, r.right(), r.bottom(), "the wall");
-    }
+    if (item.id == ItemId::wall) check_inside(r, "the wall");
     if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
   }
   void check_item(const TextItem& item) {
     if (!(item.size_px > 0) || !std::isfinite(item.size_px))
       problem += item.text + " has no size; ";
     const double width_px = fonts_.of(item.face).width_em(item.text) * item.size_px;
-    check_inside(item.origin.x, item.origin.y - 0.73 * item.size_px, item.origin.x + width_px,
-                 item.origin.y, item.text.c_str());
+    const double height_px = 0.73 * item.size_px;
+    check_inside({item.origin.x, item.origin.y - height_px, width_px, height_px}, item.text);
   }
   void check_item(const PathItem& item) {
     if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
-    const Rect& r = item.points.bounds();
-    check_inside(r.x, r.y, r.right(), r.bottom(), "a path");
+    check_inside(item.points.bounds(), "a path");
   }
   void check_item(const DiscItem& item) {
     if (!(item.radius > 0)) problem += "a dot without a radius; ";
-    check_inside(item.centre.x, item.centre.y, item.centre.x, item.centre.y, "a dot");
+    check_inside({item.centre.x, item.centre.y, 0, 0}, "a dot");
   }
   void check_item(const ImageItem& item) {
     const Rect& r = item.bounds;
     if (!(r.width > 0 && r.height > 0)) problem += "a picture without size; ";
-    check_inside(r.x, r.y, r.right(), r.bottom(), "a picture");
+    check_inside(r, "a picture");
   }
   void check_item(const PlateItem& item) { check(item.plate->items); }
   void check_item(const GroupItem& /*item*/) {}
@@ -103,11 +95,8 @@ class Checker {
 
 /// Nothing if the feature is drawn or refused as it should be.
 std::string problem_with(const Feature& feature, int width_px, int height_px, bool& is_drawn) {
-  ScriptBuilder builder;
-  builder.set("test", "digits", "2");
-  builder.set("test", "view.size", std::to_string(width_px) + "x" + std::to_string(height_px));
-  builder.set("test", feature.key, feature.text);
-  const Scene scene = builder.build_scene();
+  const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px);
+  const Scene scene = scene_with(2, {{"view.size", size}, {feature.key, feature.text}});
   const auto log = make_pair_log(scene.system);
   const auto logo = std::make_shared<const Image>(Image{3, 2, std::vector<std::uint32_t>(6)});
   try {

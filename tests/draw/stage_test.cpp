@@ -4,68 +4,39 @@
 #include <cmath>
 
 #include "draw/composed_pictures.hpp"
-#include "draw/composition.hpp"
 #include "draw/font.hpp"
 #include "draw/layout.hpp"
-#include "support/state_after.hpp"
+#include "support/article_scene.hpp"
 
 namespace piblocks {
 namespace {
-
-Scene scene_of(int digits, int width_px, int height_px) {
-  Scene scene;
-  scene.system = article_system(digits);
-  scene.view.width_px = width_px;
-  scene.view.height_px = height_px;
-  return scene;
-}
-
-const RectangleItem& rectangle(const DrawList& list, ItemId id) {
-  for (const DrawItem& item : list.items) {
-    const auto* found = std::get_if<RectangleItem>(&item);
-    if (found != nullptr && found->id == id) return *found;
-  }
-  throw std::logic_error("no such rectangle");
-}
-
-const TextItem& text(const DrawList& list, ItemId id) {
-  for (const DrawItem& item : list.items) {
-    const auto* found = std::get_if<TextItem>(&item);
-    if (found != nullptr && found->id == id) return *found;
-  }
-  throw std::logic_error("no such text");
-}
+using testing_support::article_scene;
 
 Layout lay_out(const Scene& scene, const Integer& longest_count) {
   const Rect whole{0, 0, double(scene.view.width_px), double(scene.view.height_px)};
   return lay_out_article(Drawing(scene).context, longest_count, whole);
 }
 
-DrawList compose(const Scene& scene, const State& state) {
-  return Composition(scene, *make_pair_log(scene.system)).frame({state});
-}
-
-double right(const Rect& r) { return r.right(); }
+constexpr auto rectangle = item_of<RectangleItem>;
+constexpr auto text = item_of<TextItem>;
 
 TEST(Stage, BlocksTouchWhereTheyCollide) {
-  const Scene scene = scene_of(3, 1920, 1080);
-  const auto log = make_pair_log(scene.system);
-  const DrawList blocks = compose(scene, bodies_after(*log, 1));
-  EXPECT_NEAR(right(rectangle(blocks, ItemId::blue_block).bounds),
+  const Pictures pictures(article_scene(3, 1920, 1080));
+  const DrawList blocks = pictures.after(1);
+  EXPECT_NEAR(rectangle(blocks, ItemId::blue_block).bounds.right(),
               rectangle(blocks, ItemId::red_block).bounds.x, 1e-9);
-  const DrawList wall = compose(scene, bodies_after(*log, 2));
-  EXPECT_NEAR(right(rectangle(wall, ItemId::wall).bounds),
+  const DrawList wall = pictures.after(2);
+  EXPECT_NEAR(rectangle(wall, ItemId::wall).bounds.right(),
               rectangle(wall, ItemId::blue_block).bounds.x, 1e-9);
 }
 
 TEST(Stage, BlocksStandOnOneBase) {
   const Font font;
   for (const char* width : {"4/5", "1", "3/2", "2"}) {
-    Scene scene = scene_of(2, 1920, 1080);
+    Scene scene = article_scene(2, 1920, 1080);
     scene.system.bodies[1].size = parse_rational(width);
     scene.show.overlays = {Overlay::masses};
-    const auto log = make_pair_log(scene.system);
-    const DrawList list = compose(scene, bodies_after(*log, 3));
+    const DrawList list = Pictures(scene).after(3);
     const Rect red = rectangle(list, ItemId::red_block).bounds;
     const Rect blue = rectangle(list, ItemId::blue_block).bounds;
     EXPECT_NEAR(red.bottom(), blue.bottom(), 1e-9) << width;
@@ -87,9 +58,9 @@ TEST(Stage, TheHatchStaysBehindTheFaceOfTheWall) {
   for (const auto& [width, height] :
        {std::pair{1920, 1080}, {1280, 720}, {640, 360}, {1080, 1920}, {3840, 2160}}) {
     for (const Theme theme : {Theme::lecture, Theme::lecture_light, Theme::print}) {
-      Scene scene = scene_of(2, width, height);
+      Scene scene = article_scene(2, width, height);
       scene.view.theme = theme;
-      const DrawList list = compose(scene, make_pair_log(scene.system)->state_at(0));
+      const DrawList list = Pictures(scene).at(0);
       const std::vector<DrawItem>& wall = std::get<PlateItem>(list.items.front()).plate->items;
       const Rect face = std::get<RectangleItem>(wall.back()).bounds;
       ASSERT_GT(wall.size(), 5U);
@@ -97,9 +68,9 @@ TEST(Stage, TheHatchStaysBehindTheFaceOfTheWall) {
         const auto& line = std::get<PathItem>(wall[i]);
         const Rect bounds = line.points.bounds();
         // The corner of the end of a line of 45 degrees.
-        const double corner = right(bounds) + line.stroke->width_px / 2 * std::sqrt(0.5);
-        EXPECT_LE(corner, right(face)) << i << " in " << width << 'x' << height;
-        EXPECT_GE(right(bounds), face.x - 1e-9) << "a gap";
+        const double corner = bounds.right() + line.stroke->width_px / 2 * std::sqrt(0.5);
+        EXPECT_LE(corner, face.right()) << i << " in " << width << 'x' << height;
+        EXPECT_GE(bounds.right(), face.x - 1e-9) << "a gap";
       }
     }
   }
@@ -107,24 +78,22 @@ TEST(Stage, TheHatchStaysBehindTheFaceOfTheWall) {
 
 TEST(Stage, LinesOfBlocksDoNotDependOnWhatIsBesideThem) {
   for (const auto& [width, height] : {std::pair{1920, 1080}, {3840, 2160}, {1280, 720}}) {
-    Scene plain = scene_of(2, width, height);
+    Scene plain = article_scene(2, width, height);
     Scene full = plain;
     full.show.title = "Title";
     full.show.panels = {Panel::time, Panel::velocity};
     const auto line_px = [](const Scene& scene) {
-      const auto log = make_pair_log(scene.system);
-      return rectangle(compose(scene, log->state_at(0)), ItemId::blue_block).stroke->width_px;
+      return rectangle(Pictures(scene).at(0), ItemId::blue_block).stroke->width_px;
     };
     EXPECT_EQ(line_px(plain), line_px(full)) << width << 'x' << height;
   }
 }
 
 TEST(Stage, CounterShowsTheExactCountWithSeparators) {
-  const Scene scene = scene_of(5, 1280, 720);
-  const auto log = make_pair_log(scene.system);
-  EXPECT_EQ(text(compose(scene, log->state_at(0)), ItemId::count).text, "0");
-  EXPECT_EQ(text(compose(scene, bodies_after(*log, 1234)), ItemId::count).text, "1,234");
-  EXPECT_EQ(text(compose(scene, log->state_at(1000)), ItemId::count).text, "31,415");
+  const Pictures pictures(article_scene(5, 1280, 720));
+  EXPECT_EQ(text_of(pictures.at(0), ItemId::count), "0");
+  EXPECT_EQ(text_of(pictures.after(1234), ItemId::count), "1,234");
+  EXPECT_EQ(text_of(pictures.at(1000), ItemId::count), "31,415");
 }
 
 TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
@@ -140,9 +109,8 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
                                         {200, 1300},
                                         {64, 36},
                                         {2, 2}}) {
-      const Scene scene = scene_of(digits, width, height);
-      const auto log = make_pair_log(scene.system);
-      const DrawList list = compose(scene, bodies_after(*log, log->last()));
+      const Pictures pictures(article_scene(digits, width, height));
+      const DrawList list = pictures.after(pictures.log->last());
       const Rect wall = rectangle(list, ItemId::wall).bounds;
       const TextItem& label = text(list, ItemId::label);
       const TextItem& count = text(list, ItemId::count);
@@ -160,10 +128,9 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
 }
 
 TEST(Stage, NothingMovesButTheBlocksAndTheCount) {
-  const Scene scene = scene_of(6, 1920, 1080);
-  const auto log = make_pair_log(scene.system);
-  const DrawList start = compose(scene, log->state_at(0));
-  const DrawList later = compose(scene, log->state_at(4));
+  const Pictures pictures(article_scene(6, 1920, 1080));
+  const DrawList start = pictures.at(0);
+  const DrawList later = pictures.at(4);
   EXPECT_EQ(rectangle(start, ItemId::wall), rectangle(later, ItemId::wall));
   EXPECT_EQ(text(start, ItemId::label), text(later, ItemId::label));
   EXPECT_EQ(text(start, ItemId::count).origin, text(later, ItemId::count).origin);
@@ -176,12 +143,12 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
   const Font font;
   for (const int digits : {5, 41, 80}) {
     for (const char* from : {"-20", "0"}) {
-      Scene scene = scene_of(digits, 640, 360);
+      Scene scene = article_scene(digits, 640, 360);
       scene.system.bodies[1].velocity[0] = 1;
       scene.time.from = parse_instant(from);
       scene.time.to = parse_instant("1");
-      const auto log = make_pair_log(scene.system);
-      const DrawList list = compose(scene, log->state_at(-20));
+      const Pictures pictures(scene);
+      const DrawList list = pictures.at(-20);
       const TextItem& count = text(list, ItemId::count);
       const TextItem& label = text(list, ItemId::label);
       const double end = count.origin.x + font.width_em(count.text) * count.size_px;
@@ -190,15 +157,14 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
       EXPECT_GT(count.origin.x, label.origin.x + font.width_em(label.text) * label.size_px);
       EXPECT_NEAR(label.origin.x, 640 - end, 1e-6) << "in the middle";
       if (from == std::string_view("0")) continue;
-      EXPECT_EQ(text(compose(scene, log->state_at(0)), ItemId::label), label)
-          << "nothing moves during the film";
+      EXPECT_EQ(text(pictures.at(0), ItemId::label), label) << "nothing moves during the film";
     }
   }
 }
 
 TEST(Stage, EverythingScalesWithTheFrame) {
-  const Scene small = scene_of(3, 1280, 720);
-  const Scene large = scene_of(3, 3840, 2160);
+  const Scene small = article_scene(3, 1280, 720);
+  const Scene large = article_scene(3, 3840, 2160);
   const Layout a = lay_out(small, 314);
   const Layout b = lay_out(large, 314);
   EXPECT_NEAR(b.scale, 3 * a.scale, 6) << "to even pixels";
@@ -214,30 +180,28 @@ TEST(Stage, EdgesThatDoNotMoveAreSharp) {
   const auto is_whole = [](double px) { return px == std::floor(px); };
   for (const auto& [width, height] :
        {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {854, 480}}) {
-    const Scene scene = scene_of(3, width, height);
-    const auto log = make_pair_log(scene.system);
-    const DrawList list = compose(scene, log->state_at(4));
+    const DrawList list = Pictures(article_scene(3, width, height)).at(4);
     const Rect wall = rectangle(list, ItemId::wall).bounds;
     const Rect blue = rectangle(list, ItemId::blue_block).bounds;
-    EXPECT_TRUE(is_whole(wall.x) && is_whole(wall.y) && is_whole(right(wall)));
+    EXPECT_TRUE(is_whole(wall.x) && is_whole(wall.y) && is_whole(wall.right()));
     EXPECT_TRUE(is_whole(blue.y) && is_whole(blue.height));
   }
 }
 
 TEST(Stage, FollowsTheScenesGeometry) {
-  Scene scene = scene_of(2, 1000, 500);
+  Scene scene = article_scene(2, 1000, 500);
   scene.system.walls[0].point[0] = Rational(-1, 2);
   scene.system.bodies[0].size = Rational(1, 2);
   scene.system.bodies[1].size = 2;
-  const auto log = make_pair_log(scene.system);
-  const Layout layout = lay_out(scene, log->last());
-  const DrawList list = compose(scene, log->state_at(0));
+  const Pictures pictures(scene);
+  const Layout layout = lay_out(scene, pictures.log->last());
+  const DrawList list = pictures.at(0);
   const Rect wall = rectangle(list, ItemId::wall).bounds;
   const Rect blue = rectangle(list, ItemId::blue_block).bounds;
   const Rect red = rectangle(list, ItemId::red_block).bounds;
   EXPECT_NEAR(blue.width, 0.5 * layout.scale, 1e-9);
   EXPECT_NEAR(red.height, 2 * layout.scale, 1e-9);
-  EXPECT_NEAR(blue.x - right(wall), 2.25 * layout.scale, 1e-9);
+  EXPECT_NEAR(blue.x - wall.right(), 2.25 * layout.scale, 1e-9);
   EXPECT_NEAR(blue.bottom(), red.bottom(), 1e-9);
 }
 

@@ -1,10 +1,8 @@
 // Two blocks beside a wall by whatever names: what is drawn of them is the same.
 #include <gtest/gtest.h>
-#include <piblocks/script.hpp>
 
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "draw/composed_pictures.hpp"
@@ -17,14 +15,11 @@ namespace {
 std::vector<DrawItem> diagrams_of(const DrawList& list) {
   std::vector<DrawItem> items;
   for (const DrawItem& item : list.items) {
-    const ItemId id = std::visit([](const auto& any) { return any.id; }, item);
-    if (id >= ItemId::panels && id < ItemId::card) items.push_back(item);
+    if (id_of(item) >= ItemId::panels && id_of(item) < ItemId::card) items.push_back(item);
   }
   return items;
 }
 
-/// Whatever shows two blocks and a wall shows them by whatever names: the same picture, and where
-/// the scene is turned round, the same diagrams.
 TEST(TwoBlocksAsBodies, ArePaintedAsTwoBlocks) {
   for (const char* theme : kThemeNames) {
     for (const char* panel : {"velocity", "ellipse", "position", "unfolded", "mirrors", "time",

@@ -1,83 +1,40 @@
 // The panels 'unfolded' and 'mirrors': every crossing in its place, counted, named, inside.
 #include <gtest/gtest.h>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "draw/composition.hpp"
-#include "draw/font.hpp"
+#include "draw/composed_pictures.hpp"
 #include "draw/look.hpp"
 #include "scene/schedule.hpp"
-#include "support/state_after.hpp"
 
 namespace piblocks {
 namespace {
 
-using Setting = std::pair<const char*, std::string>;
-using Settings = std::vector<Setting>;
+struct UnfoldedPictures : Pictures {
+  UnfoldedPictures(int digits, const Settings& settings)
+      : Pictures(digits,
+                 Settings{{"view.theme", "lecture"}, {"show.panels", "unfolded"}} + settings) {}
 
-constexpr double kPi = std::numbers::pi;
-
-Scene scene_with(int digits, const Settings& settings) {
-  ScriptBuilder builder;
-  builder.set("test", "digits", std::to_string(digits));
-  builder.set("test", "view.theme", "lecture");
-  builder.set("test", "show.panels", "unfolded");
-  for (const auto& [key, text] : settings) builder.set("test", key, text);
-  return builder.build_scene();
-}
-
-struct Pictures {
-  explicit Pictures(Scene of)
-      : scene(std::move(of)), log(make_pair_log(scene.system)), composition(scene, *log) {}
-
-  DrawList at(const Rational& time) const { return composition.frame({log->state_at(time), time}); }
-  DrawList after(const Integer& index) const {
-    const Rational time = log->time_after(index);
-    return composition.frame({log->state_at(time), time});
-  }
+  DrawList after(const Integer& index) const { return at(log->time_after(index)); }
   Rational end() const { return span_of(scene, *log).to; }
-
-  Scene scene;
-  std::unique_ptr<PairLog> log;
-  Composition composition;
 };
-
-template <typename Item>
-void add_all(const std::vector<DrawItem>& items, std::vector<Item>& found) {
-  for (const DrawItem& item : items) {
-    if (const auto* wanted = std::get_if<Item>(&item)) {
-      if (wanted->id >= ItemId::panels) found.push_back(*wanted);
-    }
-    if (const auto* plate = std::get_if<PlateItem>(&item)) add_all(plate->plate->items, found);
-  }
-}
-
-template <typename Item>
-std::vector<Item> all_of(const DrawList& list) {
-  std::vector<Item> found;
-  add_all(list.items, found);
-  return found;
-}
 
 /// Of the crossings.
 std::vector<DiscItem> dots_of(const DrawList& list) {
-  std::vector<DiscItem> discs = all_of<DiscItem>(list);
+  std::vector<DiscItem> discs = Shown(list).discs;
   const Color present = palette_of(Theme::lecture).accent;
   std::erase_if(discs, [&](const DiscItem& disc) { return disc.fill == present; });
   return discs;
 }
 
 std::optional<DiscItem> present_of(const DrawList& list) {
-  const std::vector<DiscItem> discs = all_of<DiscItem>(list);
+  const std::vector<DiscItem> discs = Shown(list).discs;
   const Color present = palette_of(Theme::lecture).accent;
   if (discs.empty() || discs.back().fill != present) return std::nullopt;
   return discs.back();
@@ -85,7 +42,7 @@ std::optional<DiscItem> present_of(const DrawList& list) {
 
 /// Lines of two points that begin in one place: the corner.
 std::vector<PathItem> rays_of(const DrawList& list) {
-  std::vector<PathItem> paths = all_of<PathItem>(list);
+  std::vector<PathItem> paths = Shown(list).paths;
   std::erase_if(paths, [](const PathItem& path) {
     const auto points = path.points.view();
     return path.closed || points.size() != 2 || points[0].y == points[1].y;
@@ -94,7 +51,7 @@ std::vector<PathItem> rays_of(const DrawList& list) {
 }
 
 std::optional<PathItem> wedge_of(const DrawList& list) {
-  for (const PathItem& path : all_of<PathItem>(list)) {
+  for (const PathItem& path : Shown(list).paths) {
     if (path.closed && path.points.view().size() > 2 && path.id > ItemId::panels) {
       if (path.fill && path.fill != palette_of(Theme::lecture).muted) return path;
     }
@@ -105,7 +62,7 @@ std::optional<PathItem> wedge_of(const DrawList& list) {
 /// The map back from the picture, found from two instants: positions along the line, seen from
 /// its point next to the corner.
 struct Plane {
-  explicit Plane(const Pictures& pictures) {
+  explicit Plane(const UnfoldedPictures& pictures) {
     const TwoBlocks system = *two_blocks_of(pictures.scene.system);
     const double sigma = std::sqrt(to_double(system.blue.mass / system.red.mass));
     theta = std::atan(sigma);
@@ -155,7 +112,7 @@ const std::vector<Settings>& systems() {
 
 TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
   for (const Settings& settings : systems()) {
-    const Pictures pictures(scene_with(2, settings));
+    const UnfoldedPictures pictures(2, settings);
     const Plane plane(pictures);
     const std::vector<DiscItem> dots = dots_of(pictures.at(pictures.end()));
     ASSERT_EQ(Integer(static_cast<unsigned long>(dots.size())),
@@ -184,7 +141,7 @@ TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
 
 TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
   for (const char* mass : {"1", "3", "7", "100", "1600", "2500", "1000000"}) {
-    const Pictures pictures(scene_with(2, {{"red.mass", mass}}));
+    const UnfoldedPictures pictures(2, {{"red.mass", mass}});
     const Plane plane(pictures);
     const DrawList list = pictures.at(pictures.end());
     const std::vector<DiscItem> dots = dots_of(list);
@@ -207,7 +164,7 @@ TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
 }
 
 TEST(Unfolded, DotsComeWithTheirCollisionsAndStay) {
-  const Pictures pictures(scene_with(2, {}));
+  const UnfoldedPictures pictures(2, {});
   std::vector<DiscItem> before;
   for (int count = 1; count <= 31; ++count) {
     const std::vector<DiscItem> dots = dots_of(pictures.after(count));
@@ -219,7 +176,7 @@ TEST(Unfolded, DotsComeWithTheirCollisionsAndStay) {
 
 TEST(Unfolded, ManyMirrorsAreThinnedButTrue) {
   for (const int digits : {3, 6, 12, 20, 40}) {
-    const Pictures pictures(scene_with(digits, {}));
+    const UnfoldedPictures pictures(digits, {});
     const Plane plane(pictures);
     const std::vector<DiscItem> dots = dots_of(pictures.at(pictures.end()));
     ASSERT_GT(dots.size(), 20U) << digits;
@@ -245,7 +202,7 @@ TEST(Unfolded, ManyMirrorsAreThinnedButTrue) {
 
 TEST(Unfolded, ThePresentIsInTheWedgeBetweenItsMirrors) {
   for (const Settings& settings : systems()) {
-    const Pictures pictures(scene_with(2, settings));
+    const UnfoldedPictures pictures(2, settings);
     for (int i = 0; i <= 60; ++i) {
       const DrawList list = pictures.at(pictures.end() * i / 60);
       const auto present = present_of(list);
@@ -265,15 +222,9 @@ TEST(Unfolded, ThePresentIsInTheWedgeBetweenItsMirrors) {
   }
 }
 
-std::string text_of(const DrawList& list) {
-  std::string all;
-  for (const TextItem& text : all_of<TextItem>(list)) all += text.text;
-  return all;
-}
-
 TEST(Unfolded, TheTitleSaysHowManyMirrors) {
   const auto text_with = [](int digits, const Settings& settings) {
-    return text_of(Pictures(scene_with(digits, settings)).at(1));
+    return Shown(UnfoldedPictures(digits, settings).at(1)).words();
   };
   EXPECT_NE(text_with(2, {}).find("mirror: the line crosses ⌊π/"), std::string::npos);
   EXPECT_NE(text_with(2, {}).find("⌋ = 31 of them"), std::string::npos);
@@ -286,8 +237,8 @@ TEST(Unfolded, TheTitleSaysHowManyMirrors) {
     EXPECT_EQ(text.find("⌊"), std::string::npos) << text;
   }
   for (const Settings& settings : systems()) {
-    const Pictures pictures(scene_with(2, settings));
-    const std::string text = text_of(pictures.at(1));
+    const UnfoldedPictures pictures(2, settings);
+    const std::string text = Shown(pictures.at(1)).words();
     const std::string count = pictures.log->last().get_str();
     const bool says_count = text.find(count + " mirror") != std::string::npos ||
                             text.find("⌋ = " + count + " of them") != std::string::npos;
@@ -298,7 +249,7 @@ TEST(Unfolded, TheTitleSaysHowManyMirrors) {
 
 TEST(Unfolded, SaysTheAngle) {
   const auto has = [](const char* mass, const char* angle) {
-    const std::string text = text_of(Pictures(scene_with(1, {{"red.mass", mass}})).at(1));
+    const std::string text = Shown(UnfoldedPictures(1, {{"red.mass", mass}}).at(1)).words();
     return text.find(angle) != std::string::npos;
   };
   EXPECT_TRUE(has("100", "≈ 1/10"));
@@ -312,28 +263,11 @@ TEST(Unfolded, SaysTheAngle) {
 
 class UnfoldedSizes : public testing::TestWithParam<const char*> {};
 
-/// The width of an item's text by its own typeface.
-Rect box_of(const TextItem& text, const Fonts& fonts) {
-  return {text.origin.x, text.origin.y - 0.76 * text.size_px,
-          fonts.of(text.face).width_em(text.text) * text.size_px, 0.96 * text.size_px};
-}
-
-bool overlap(const Rect& a, const Rect& b) {
-  constexpr double kTouch_px = 0.5;
-  return a.x < b.right() - kTouch_px && b.x < a.right() - kTouch_px &&
-         a.y < b.bottom() - kTouch_px && b.y < a.bottom() - kTouch_px;
-}
-
 void expect_inside(const DrawList& list, const Rect& place) {
-  const auto is_inside = [&](double x, double y, double around) {
-    return x - around >= place.x && x + around <= place.right() && y - around >= place.y &&
-           y + around <= place.bottom();
-  };
-  for (const PathItem& path : all_of<PathItem>(list)) {
-    for (const Point& point : path.points.view()) EXPECT_TRUE(is_inside(point.x, point.y, 0));
-  }
-  for (const DiscItem& disc : all_of<DiscItem>(list)) {
-    EXPECT_TRUE(is_inside(disc.centre.x, disc.centre.y, disc.radius));
+  const Shown shown(list);
+  for (const PathItem& path : shown.paths) EXPECT_TRUE(place.holds(path.points.bounds()));
+  for (const DiscItem& disc : shown.discs) {
+    EXPECT_TRUE(place.holds(Rect{disc.centre.x, disc.centre.y, 0, 0}.grown(disc.radius)));
   }
 }
 
@@ -341,28 +275,14 @@ TEST_P(UnfoldedSizes, AllIsInsideAndNoTextsMeet) {
   const Fonts fonts;
   for (const char* panel : {"unfolded", "mirrors", "unfolded,mirrors"}) {
     for (const int digits : {1, 2, 3, 20}) {
-      const Pictures pictures(
-          scene_with(digits, {{"view.size", GetParam()}, {"show.panels", panel}}));
+      const UnfoldedPictures pictures(digits, {{"view.size", GetParam()}, {"show.panels", panel}});
       for (int i = 0; i <= 4; ++i) {
         const DrawList list = pictures.at(pictures.end() * i / 4);
-        const std::vector<TextItem> texts = all_of<TextItem>(list);
-        for (std::size_t a = 0; a < texts.size(); ++a) {
-          const Rect box = box_of(texts[a], fonts);
-          EXPECT_TRUE(box.x >= 0 && box.right() <= list.width_px && box.bottom() <= list.height_px)
-              << texts[a].text;
-          for (std::size_t b = 0; b < a; ++b) {
-            EXPECT_FALSE(overlap(box, box_of(texts[b], fonts)))
-                << texts[a].text << " and " << texts[b].text;
-          }
-        }
-        const std::vector<DrawItem>& items = list.items;
-        const auto plate = std::ranges::find_if(items, [](const DrawItem& item) {
-          const auto* found = std::get_if<PlateItem>(&item);
-          return found != nullptr && found->id >= ItemId::panels;
-        });
-        ASSERT_NE(plate, items.end());
+        const Shown shown(list);
+        EXPECT_EQ(text_problem(boxes_of(shown.texts, fonts), whole_of(list)), "");
+        ASSERT_FALSE(shown.plates.empty());
         if (std::string(panel).find(',') == std::string::npos) {
-          expect_inside(list, std::get<PlateItem>(*plate).bounds);
+          expect_inside(list, shown.plates.front().bounds);
         }
       }
     }
@@ -378,10 +298,10 @@ INSTANTIATE_TEST_SUITE_P(Shapes, UnfoldedSizes,
 TEST(Unfolded, IsTheSameFromAnyDistance) {
   for (const char* mass : {"100", "1e12"}) {
     const auto dots_from = [&](const char* position) {
-      const Pictures pictures(scene_with(1, {{"red.mass", mass},
-                                             {"red.position", position},
-                                             {"time.from", "turn-3"},
-                                             {"time.to", "turn+3"}}));
+      const UnfoldedPictures pictures(1, {{"red.mass", mass},
+                                          {"red.position", position},
+                                          {"time.from", "turn-3"},
+                                          {"time.to", "turn+3"}});
       return dots_of(pictures.at(pictures.end()));
     };
     const std::vector<DiscItem> near = dots_from("8");
@@ -408,24 +328,20 @@ TEST(Unfolded, HoldsAnyScene) {
       {{"blue.velocity", "-1"}, {"red.position", "1e150"}, {"red.velocity", "-1e150"}},
       {{"red.mass", "1e310"}, {"view.theme", "article"}}};
   for (const char* panel : {"unfolded", "mirrors"}) {
-    for (Settings settings : extremes) {
-      settings.insert(settings.end(), {{"show.panels", panel}, {"time.to", "6"}});
-      const Pictures pictures(scene_with(2, settings));
+    for (const Settings& settings : extremes) {
+      const UnfoldedPictures pictures(
+          2, settings + Settings{{"show.panels", panel}, {"time.to", "6"}});
       for (const int time : {0, 3, 6}) {
         const DrawList list = pictures.at(time);
         EXPECT_TRUE(wedge_of(list)) << settings.front().second;
-        const auto id_of = [](const DrawItem& item) {
-          return std::visit([](const auto& any) { return any.id; }, item);
-        };
-        EXPECT_EQ(std::ranges::adjacent_find(list.items, std::ranges::greater_equal(), id_of),
-                  list.items.end());
+        EXPECT_TRUE(have_rising_ids(list));
       }
     }
   }
 }
 
 TEST(Mirrors, AppearWithTheirCollisions) {
-  const Pictures pictures(scene_with(2, {{"show.panels", "mirrors"}}));
+  const UnfoldedPictures pictures(2, {{"show.panels", "mirrors"}});
   EXPECT_EQ(rays_of(pictures.at(0)).size(), 1U) << "the mirror that comes first";
   for (int count = 1; count <= 31; ++count) {
     EXPECT_EQ(int(rays_of(pictures.after(count)).size()), std::min(count + 1, 31)) << count;
@@ -439,7 +355,7 @@ std::pair<Point, Point> sides_of(const DrawList& list) {
 }
 
 TEST(Mirrors, OpenFromTheWedgeBefore) {
-  const Pictures pictures(scene_with(2, {{"show.panels", "mirrors"}}));
+  const UnfoldedPictures pictures(2, {{"show.panels", "mirrors"}});
   ASSERT_TRUE(pictures.composition.needs().hits);
   const auto with_age = [&](int count, double age_s) {
     const Rational time = pictures.log->time_after(count);

@@ -1,42 +1,26 @@
 // The diagrams of velocities, against the log: points, chords, the end, the ellipse, room.
 #include <gtest/gtest.h>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "draw/composition.hpp"
-#include "draw/font.hpp"
+#include "draw/composed_pictures.hpp"
+#include "draw/contrast.hpp"
 #include "draw/look.hpp"
-#include "support/state_after.hpp"
 
 namespace piblocks {
 namespace {
 
-using Setting = std::pair<const char*, std::string>;
-using Settings = std::vector<Setting>;
-
 constexpr double kMorphed_s = 10;  ///< of video: the ellipse is a circle by then
 
-struct Pictures {
-  explicit Pictures(const Settings& settings, const char* panel = "velocity")
-      : scene(scene_of(settings, panel)),
-        log(make_pair_log(scene.system)),
-        composition(scene, *log) {}
-
-  static Scene scene_of(const Settings& settings, const char* panel) {
-    ScriptBuilder builder;
-    builder.set("test", "view.theme", "lecture");
-    builder.set("test", "show.panels", panel);
-    for (const auto& [key, text] : settings) builder.set("test", key, text);
-    return builder.build_scene();
-  }
+struct VelocityPictures : Pictures {
+  explicit VelocityPictures(const Settings& settings, const char* panel = "velocity")
+      : Pictures(
+            scene_with(Settings{{"view.theme", "lecture"}, {"show.panels", panel}} + settings)) {}
 
   DrawList of(const PairState& state, double video_s) const {
     FrameState shown{bodies_state(state)};
@@ -60,51 +44,13 @@ struct Pictures {
     return std::atan(std::sqrt(
         to_double(scene.system.bodies[0].mass.value() / scene.system.bodies[1].mass.value())));
   }
-
-  Scene scene;
-  std::unique_ptr<PairLog> log;
-  Composition composition;
-};
-
-bool is_in_panel(ItemId id) { return id >= ItemId::panels && id < ItemId::card; }
-
-/// What one panel shows, with the items of its plate.
-struct Figure {
-  explicit Figure(const DrawList& list) { add(list.items); }
-
-  void add(const std::vector<DrawItem>& items) {
-    for (const DrawItem& item : items) {
-      const ItemId id = std::visit([](const auto& any) { return any.id; }, item);
-      if (!is_in_panel(id)) continue;
-      if (const auto* plate = std::get_if<PlateItem>(&item)) {
-        bounds = plate->bounds;
-        add(plate->plate->items);
-      }
-      if (const auto* path = std::get_if<PathItem>(&item)) paths.push_back(*path);
-      if (const auto* disc = std::get_if<DiscItem>(&item)) discs.push_back(*disc);
-      if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(*text);
-    }
-  }
-  std::vector<PathItem> lines_of(const Color& color) const {
-    std::vector<PathItem> found;
-    for (const PathItem& path : paths) {
-      if (path.stroke && path.stroke->color == color) found.push_back(path);
-    }
-    return found;
-  }
-  const Point& present() const { return discs.back().centre; }
-
-  Rect bounds;
-  std::vector<PathItem> paths;
-  std::vector<DiscItem> discs;
-  std::vector<TextItem> texts;
 };
 
 const Palette kPalette = palette_of(Theme::lecture);
 
 /// Axes cross in its centre; its outline passes through angle 0 and half a turn.
 struct Frame {
-  explicit Frame(const Figure& figure) {
+  explicit Frame(const Shown& figure) {
     const auto outline = std::ranges::find_if(figure.paths, [](const PathItem& path) {
       return path.closed && path.stroke && path.stroke->color == kPalette.muted;
     });
@@ -119,6 +65,8 @@ struct Frame {
   double blue;  ///< as red on a circle
 };
 
+const Point& present_of(const Shown& figure) { return figure.discs.back().centre; }
+
 void expect_near(const Point& found, const Point& expected, const char* what, const Integer& k) {
   EXPECT_NEAR(found.x, expected.x, 1e-9 * 1000) << what << ' ' << k;
   EXPECT_NEAR(found.y, expected.y, 1e-9 * 1000) << what << ' ' << k;
@@ -127,10 +75,10 @@ void expect_near(const Point& found, const Point& expected, const char* what, co
 class Starts : public testing::TestWithParam<Settings> {};
 
 TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
-  const Pictures pictures(GetParam());
+  const VelocityPictures pictures(GetParam());
   const PairLog& log = *pictures.log;
   for (Integer count = 0; count <= log.last(); ++count) {
-    const Figure figure(pictures.after(count));
+    const Shown figure(pictures.after(count));
     const Frame circle(figure);
     const auto red = figure.lines_of(kPalette.red.line);
     const auto blue = figure.lines_of(kPalette.blue.line);
@@ -151,20 +99,20 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
       expect_near(figure.discs.at(k.get_ui()).centre, circle.at(after), "dot", k);
       before = after;
     }
-    expect_near(figure.present(), circle.at(before), "present", count);
+    expect_near(present_of(figure), circle.at(before), "present", count);
   }
 }
 
 TEST_P(Starts, ChordsStayWhatTheyAre) {
-  const Pictures pictures(GetParam());
+  const VelocityPictures pictures(GetParam());
   std::map<ItemId, DrawItem> seen;
   for (Integer count = 0; count <= pictures.log->last(); ++count) {
     const DrawList list = pictures.after(count);
     std::size_t kept = 0;
     ItemId last{};
     for (const DrawItem& item : list.items) {
-      const ItemId id = std::visit([](const auto& any) { return any.id; }, item);
-      if (!is_in_panel(id)) continue;
+      const ItemId id = id_of(item);
+      if (id < ItemId::panels || id >= ItemId::card) continue;
       EXPECT_LT(last, id);
       last = id;
       if (&item == &list.items.back()) continue;  // the present
@@ -177,9 +125,9 @@ TEST_P(Starts, ChordsStayWhatTheyAre) {
 }
 
 TEST_P(Starts, TheEndIsInTheWedge) {
-  const Pictures pictures(GetParam());
+  const VelocityPictures pictures(GetParam());
   for (Integer count = 0; count <= pictures.log->last(); ++count) {
-    const Figure figure(pictures.after(count));
+    const Shown figure(pictures.after(count));
     const Frame circle(figure);
     const auto wedge = std::ranges::find_if(figure.paths, [](const PathItem& path) {
       return path.fill && path.fill->green == kPalette.done.green && !path.stroke &&
@@ -191,7 +139,7 @@ TEST_P(Starts, TheEndIsInTheWedge) {
     EXPECT_NEAR(corner.y, circle.centre.y, 1e-6);
     const Point& end = wedge->points.view()[wedge->points.view().size() - 2];
     EXPECT_NEAR(std::atan2(corner.y - end.y, end.x - corner.x), pictures.theta(), 1e-9);
-    const Point at = figure.present();
+    const Point at = present_of(figure);
     const double angle = std::atan2(corner.y - at.y, at.x - corner.x);
     const bool is_inside = angle > -1e-9 && angle < pictures.theta() + 1e-9;
     EXPECT_EQ(is_inside, count == pictures.log->last()) << count;
@@ -209,39 +157,29 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{{"mass-ratio", "1/400"}, {"blue.velocity", "-1"}}));
 
 TEST(VelocityPanel, CountsFromTheScenesBeginning) {
-  const Pictures pictures({{"mass-ratio", "40"},
-                           {"red.velocity", "-1/100"},
-                           {"blue.velocity", "3"},
-                           {"time.from", "-10"},
-                           {"time.to", "10"}});
+  const VelocityPictures pictures({{"mass-ratio", "40"},
+                                   {"red.velocity", "-1/100"},
+                                   {"blue.velocity", "3"},
+                                   {"time.from", "-10"},
+                                   {"time.to", "10"}});
   const PairLog& log = *pictures.log;
   ASSERT_LT(log.first_index(), 1);
   const Integer before = log.blocks_at(-10).count;
   for (Integer count = before; count <= log.last(); ++count) {
     const PairState state =
         count < log.first_index() ? log.blocks_at(-10) : state_after(log, count);
-    const Figure figure(pictures.of(state, 0));
+    const Shown figure(pictures.of(state, 0));
     const Frame circle(figure);
     const auto chords =
         figure.lines_of(kPalette.red.line).size() + figure.lines_of(kPalette.blue.line).size();
     EXPECT_EQ(Integer(static_cast<unsigned long>(chords)), count - before);
-    expect_near(figure.present(), circle.at(pictures.unit(state.blue, state.red)), "now", count);
-    expect_near(figure.discs.at(chords).centre, figure.present(), "dot", count);
+    expect_near(present_of(figure), circle.at(pictures.unit(state.blue, state.red)), "now", count);
+    expect_near(figure.discs.at(chords).centre, present_of(figure), "dot", count);
   }
 }
 
-/// WCAG 2.1, "relative luminance".
-double luminance(const Color& color) {
-  const auto linear = [](double byte) {
-    const double value = byte / 255;
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(color.red) + 0.7152 * linear(color.green) + 0.0722 * linear(color.blue);
-}
-
 TEST(VelocityPanel, TheWedgeStandsOutInEveryTheme) {
-  for (const Theme theme : {Theme::article, Theme::lecture, Theme::lecture_light, Theme::chalkboard,
-                            Theme::dark, Theme::print, Theme::colorblind}) {
+  for (const Theme theme : kThemes) {
     const Palette palette = palette_of(theme);
     const auto mixed = [](std::uint8_t over, std::uint8_t below) {
       return static_cast<std::uint8_t>(style::kWedgeFill * over + (1 - style::kWedgeFill) * below);
@@ -249,19 +187,17 @@ TEST(VelocityPanel, TheWedgeStandsOutInEveryTheme) {
     const Color fill{mixed(palette.done.red, palette.background.red),
                      mixed(palette.done.green, palette.background.green),
                      mixed(palette.done.blue, palette.background.blue)};
-    const double a = luminance(fill) + 0.05;
-    const double b = luminance(palette.background) + 0.05;
-    EXPECT_GE(std::max(a, b) / std::min(a, b), 2) << exact_text(theme);
+    EXPECT_GE(contrast(fill, palette.background), 2) << exact_text(theme);
   }
 }
 
 TEST(VelocityPanel, ShowsThatNothingMoves) {
-  const Figure figure(
-      Pictures({{"digits", "2"}, {"red.velocity", "0"}, {"time.to", "1"}}).after(0));
+  const Shown figure(
+      VelocityPictures({{"digits", "2"}, {"red.velocity", "0"}, {"time.to", "1"}}).after(0));
   ASSERT_EQ(figure.discs.size(), 1U);
   const auto axes = figure.lines_of(kPalette.grid);
   ASSERT_EQ(axes.size(), 2U);
-  EXPECT_EQ(figure.present(), (Point{axes[1].points.view()[0].x, axes[0].points.view()[0].y}));
+  EXPECT_EQ(present_of(figure), (Point{axes[1].points.view()[0].x, axes[0].points.view()[0].y}));
   EXPECT_TRUE(figure.lines_of(kPalette.muted).empty()) << "there is no circle";
 }
 
@@ -285,11 +221,10 @@ double segment(double angle) {
 TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
   for (const Settings& start :
        {Settings{{"digits", "4"}}, Settings{{"digits", "4"}, {"blue.velocity", "30"}}}) {
-    const Pictures pictures(start);
+    const VelocityPictures pictures(start);
     const Integer& last = pictures.log->last();
     for (Integer count = 0; count <= last; count += 53) {
-      const DrawList list = pictures.after(count);
-      const Figure figure(list);
+      const Shown figure(pictures.after(count));
       const Frame circle(figure);
       double area = 0;
       for (const PathItem& path : figure.paths) {
@@ -312,7 +247,8 @@ TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
 
 TEST(VelocityPanel, CostsLittleForAnyNumberOfDigits) {
   for (const int digits : {3, 4, 9, 20, 100, 300}) {
-    const Pictures pictures({{"digits", std::to_string(digits)}, {"view.theme", "article"}});
+    const VelocityPictures pictures(
+        {{"digits", std::to_string(digits)}, {"view.theme", "article"}});
     for (const Rational& time : {Rational(0), Rational(3), Rational(7, 2), Rational(9)}) {
       EXPECT_LT(pictures.of(pictures.log->blocks_at(time), 0).items.size(), 60U) << digits;
     }
@@ -320,16 +256,17 @@ TEST(VelocityPanel, CostsLittleForAnyNumberOfDigits) {
 }
 
 TEST(EllipsePanel, FollowsOneMapToTheCircle) {
-  const Pictures pictures({{"mass-ratio", "100"}}, "ellipse");
+  const VelocityPictures pictures({{"mass-ratio", "100"}}, "ellipse");
   // Hits cost time, and it shows none.
   EXPECT_TRUE(pictures.composition.needs().video_s);
   EXPECT_EQ(pictures.composition.needs().hits, pictures.scene.show.hits);
-  EXPECT_FALSE(Pictures({{"show.hits", "false"}}, "ellipse").composition.needs().hits);
-  const Frame circle{Figure(pictures.after(0))};
+  const Settings without = {{"show.hits", "false"}, {"show.loupe", "off"}};
+  EXPECT_FALSE(VelocityPictures(without, "ellipse").composition.needs().hits);
+  const Frame circle{Shown(pictures.after(0))};
   for (const auto& [video_s, share] :
        {std::pair(0.0, 0.0), {1.5, 0.0}, {2.125, 5.0 / 32}, {2.75, 0.5}, {4.0, 1.0}}) {
     for (const int count : {0, 1, 14, 15, 30, 31}) {
-      const Figure figure(pictures.after(count, video_s));
+      const Shown figure(pictures.after(count, video_s));
       Frame ellipse(figure);
       EXPECT_EQ(ellipse.centre.y, circle.centre.y);
       EXPECT_NEAR(ellipse.red, circle.red * std::pow(10, share - 1), 1e-9);
@@ -346,15 +283,10 @@ TEST(EllipsePanel, FollowsOneMapToTheCircle) {
   }
 }
 
-bool says(const Figure& figure, const char* words) {
-  return std::ranges::any_of(figure.texts,
-                             [&](const TextItem& text) { return text.text == words; });
-}
-
 TEST(EllipsePanel, SaysWhatIsNotToScale) {
   const auto says_at = [](const char* ratio, double video_s) {
-    return says(Figure(Pictures({{"mass-ratio", ratio}}, "ellipse").after(0, video_s)),
-                "not to scale");
+    return Shown(VelocityPictures({{"mass-ratio", ratio}}, "ellipse").after(0, video_s))
+        .has_text("not to scale");
   };
   EXPECT_FALSE(says_at("100", 0));
   EXPECT_FALSE(says_at("144", 0));
@@ -366,16 +298,16 @@ TEST(EllipsePanel, SaysWhatIsNotToScale) {
 
 TEST(EllipsePanel, SaysWhyItIsAnEllipse) {
   for (const char* size : {"960x540", "1280x720", "3840x2160", "1080x1920"}) {
-    const Pictures pictures({{"digits", "2"}, {"view.size", size}}, "ellipse,velocity");
-    EXPECT_TRUE(says(Figure(pictures.after(0, 0)), "stays the same")) << size;
-    EXPECT_FALSE(says(Figure(pictures.after(0)), "stays the same")) << size;
-    EXPECT_TRUE(says(Figure(pictures.after(0)), "no more hits here")) << size;
+    const VelocityPictures pictures({{"digits", "2"}, {"view.size", size}}, "ellipse,velocity");
+    EXPECT_TRUE(Shown(pictures.after(0, 0)).has_text("stays the same")) << size;
+    EXPECT_FALSE(Shown(pictures.after(0)).has_text("stays the same")) << size;
+    EXPECT_TRUE(Shown(pictures.after(0)).has_text("no more hits here")) << size;
   }
 }
 
 TEST(EllipsePanel, IsTheCircleInTheEnd) {
-  const Figure circle(Pictures(Settings{{"digits", "2"}}).after(17));
-  const Figure ellipse(Pictures(Settings{{"digits", "2"}}, "ellipse").after(17));
+  const Shown circle(VelocityPictures(Settings{{"digits", "2"}}).after(17));
+  const Shown ellipse(VelocityPictures(Settings{{"digits", "2"}}, "ellipse").after(17));
   EXPECT_TRUE(std::ranges::equal(circle.discs, ellipse.discs));
   EXPECT_EQ(circle.lines_of(kPalette.red.line), ellipse.lines_of(kPalette.red.line));
   EXPECT_EQ(circle.lines_of(kPalette.blue.line), ellipse.lines_of(kPalette.blue.line));
@@ -388,28 +320,11 @@ struct Shape {
 
 class Shapes : public testing::TestWithParam<Shape> {};
 
-Rect box_of(const TextItem& text, const Fonts& fonts) {
-  return {text.origin.x, text.origin.y - 0.74 * text.size_px,
-          fonts.of(text.face).width_em(text.text) * text.size_px, 0.95 * text.size_px};
-}
-
-bool holds(const Rect& outer, const Point& point) {
-  return point.x >= outer.x && point.x <= outer.right() && point.y >= outer.y &&
-         point.y <= outer.bottom();
-}
-
-bool overlap(const Rect& a, const Rect& b) {
-  constexpr double kTouch_px = 0.5;
-  return a.x < b.right() - kTouch_px && b.x < a.right() - kTouch_px &&
-         a.y < b.bottom() - kTouch_px && b.y < a.bottom() - kTouch_px;
-}
-
 /// The items of the first panel alone.
 DrawList first_panel(DrawList list) {
   const auto second = static_cast<std::uint32_t>(ItemId::panels) + ids_from(1);
   std::erase_if(list.items, [&](const DrawItem& item) {
-    const ItemId id = std::visit([](const auto& any) { return any.id; }, item);
-    return id < ItemId::panels || static_cast<std::uint32_t>(id) >= second;
+    return id_of(item) < ItemId::panels || static_cast<std::uint32_t>(id_of(item)) >= second;
   });
   return list;
 }
@@ -417,39 +332,31 @@ DrawList first_panel(DrawList list) {
 TEST_P(Shapes, HoldThePanelsWithoutOverlaps) {
   const Fonts fonts;
   for (const char* digits : {"1", "2", "3", "5", "8", "13", "20"}) {
-    const Pictures pictures({{"digits", digits}, {"view.size", GetParam().size}},
-                            GetParam().panels);
+    const VelocityPictures pictures({{"digits", digits}, {"view.size", GetParam().size}},
+                                    GetParam().panels);
     const Integer& last = pictures.log->last();
     for (const Integer& count : {Integer(0), Integer(1), Integer(last / 2), last}) {
       for (const double video_s : {0.0, 2.2, 3.2, kMorphed_s}) {
-        const Figure figure(first_panel(pictures.after(count, video_s)));
+        const Shown figure(first_panel(pictures.after(count, video_s)));
+        const Rect& bounds = figure.plates.front().bounds;
         for (const PathItem& path : figure.paths) {
-          for (const Point& point : path.points.view()) {
-            EXPECT_TRUE(holds(figure.bounds, point)) << digits << ' ' << point.x << ' ' << point.y;
-          }
+          EXPECT_TRUE(bounds.holds(path.points.bounds())) << digits;
         }
-        for (std::size_t i = 0; i < figure.texts.size(); ++i) {
-          const Rect box = box_of(figure.texts[i], fonts);
-          EXPECT_TRUE(holds(figure.bounds, {box.x, box.y}) &&
-                      holds(figure.bounds, {box.right(), box.bottom()}))
-              << digits << ' ' << figure.texts[i].text;
-          for (std::size_t k = 0; k < i; ++k) {
-            EXPECT_FALSE(overlap(box, box_of(figure.texts[k], fonts)))
-                << digits << ": " << figure.texts[i].text << " and " << figure.texts[k].text;
-          }
-        }
+        EXPECT_EQ(text_problem(boxes_of(figure.texts, fonts), bounds), "") << digits;
       }
     }
   }
 }
 
 TEST_P(Shapes, LetTheCircleFillThePanel) {
-  const Pictures pictures({{"digits", "2"}, {"view.size", GetParam().size}}, GetParam().panels);
-  const Figure figure(first_panel(pictures.after(3)));
+  const VelocityPictures pictures({{"digits", "2"}, {"view.size", GetParam().size}},
+                                  GetParam().panels);
+  const Shown figure(first_panel(pictures.after(3)));
   const Sizes sizes(pictures.scene.view);
   // A plate is half an em larger than its diagram, whose title takes one and a half.
-  const double width = figure.bounds.width - sizes.text;
-  const double height = figure.bounds.height - 2.5 * sizes.text;
+  const Rect& plate = figure.plates.front().bounds;
+  const double width = plate.width - sizes.text;
+  const double height = plate.height - 2.5 * sizes.text;
   EXPECT_GE(2 * Frame(figure).red, 0.75 * std::min(width, height) - 3);
 }
 

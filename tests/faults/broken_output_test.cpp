@@ -50,7 +50,7 @@ TEST_P(BrokenFolderTest, ThatMayNoLongerBeWrittenKeepsTheOldFiles) {
   const CommandResult result = disturb([&] { set_immutable(out(), true); });
   set_immutable(out(), false);
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("Operation not permitted"), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, "Operation not permitted"));
   EXPECT_TRUE(finished() == old);
   EXPECT_EQ(run(GetParam().arguments).exit_code, 0);
   EXPECT_TRUE(files() == complete);
@@ -61,7 +61,7 @@ TEST_P(BrokenFolderTest, ThatIsRemovedIsAnError) {
   undisturbed(GetParam());
   const CommandResult result = disturb([&] { fs::remove_all(out()); });
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("No such file or directory"), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, "No such file or directory"));
   EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
 }
 INSTANTIATE_TEST_SUITE_P(Every, BrokenFolderTest, testing::ValuesIn(every_kind()), name_of);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "faults/fault_fixture.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -40,7 +40,7 @@ TEST_P(FailingCallTest, OfAnyNumberLeavesTheOldFilesOrAllNewOnes) {
       const CommandResult result = run_with(fmt::format("{} {}", call, number));
       if (result.exit_code == 0) break;
       ASSERT_EQ(result.exit_code, 1);
-      EXPECT_NE(result.err.find("Input/output error"), std::string::npos) << result.err;
+      EXPECT_TRUE(contains(result.err, "Input/output error"));
       EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
       // A page's video is a file of a folder of its own before.
       const bool is_in_place = result.err.find("sync folder") != std::string::npos &&
@@ -58,8 +58,7 @@ TEST_P(FailingCallTest, OfAnyNumberLeavesTheOldFilesOrAllNewOnes) {
 /// name is never half a file all the same.
 TEST_P(FailingCallTest, OfMallocEndsWithAMessage) {
   constexpr int kRounds = 40;
-  Random random(31415);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(31415);
   const Files complete = undisturbed(GetParam());
   int failures = 0;
   for (int round = 0; round < kRounds; ++round) {

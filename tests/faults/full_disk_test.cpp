@@ -51,7 +51,7 @@ TEST_P(EveryKindTest, OnAFullDiskFailsAndLeavesWhatWasThere) {
     const Files old = put_old_files(complete);
     const CommandResult result = run(GetParam().arguments);
     EXPECT_EQ(result.exit_code, 1);
-    EXPECT_NE(result.err.find("No space left on device"), std::string::npos) << result.err;
+    EXPECT_TRUE(contains(result.err, "No space left on device"));
     EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
     EXPECT_TRUE(files() == old);
   }

@@ -8,7 +8,7 @@
 
 #include "core/output_file.hpp"
 #include "faults/fault_fixture.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -75,8 +75,7 @@ class KilledTest : public EveryKindTest {
 /// A round leaves to the next what it left: that has to remove it.
 TEST_P(KilledTest, AtRandomMomentsLeavesNoHalfFile) {
   constexpr int kRounds = 40;
-  Random random(20261121);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(20261121);
   const Files complete = undisturbed(GetParam());
   const auto run_once = [&] { run(GetParam().arguments); };
   const double whole_s = std::min(seconds(run_once), seconds(run_once));
@@ -148,7 +147,7 @@ TEST_P(AbandonedTest, IsKeptWhileItsOwnerLives) {
   EXPECT_TRUE(fs::exists(of_a_living_process.path()));
   EXPECT_EQ(result.exit_code, is_sequence(complete) ? 2 : 0);
   if (!is_sequence(complete)) return;
-  EXPECT_NE(result.err.find("another run is writing it"), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, "another run is writing it"));
   EXPECT_TRUE(finished().empty());
 }
 INSTANTIATE_TEST_SUITE_P(Every, AbandonedTest, testing::ValuesIn(every_kind()), name_of);

@@ -4,6 +4,7 @@ In: what a person would do by mouse and keyboard, and scripts. Out: what is seen
 """
 
 import base64
+import contextlib
 import json
 import os
 import pathlib
@@ -199,11 +200,17 @@ class Browser:
 
 
 class PageCheck:
-    """What checks of pages share: a folder, a browser, and the count of what is wrong."""
+    """What checks of pages share: the program, a folder, a browser, and the count of what is wrong."""
 
-    def __init__(self, work, browser):
-        self.work, self.browser = work, browser
+    def __init__(self, program, work, browser):
+        self.program, self.work, self.browser = program, work, browser
         self.faults = 0
+
+    def piblocks(self, *arguments):
+        """@returns the exit code. What is printed is in self.printed."""
+        run = subprocess.run([self.program, *arguments], cwd=self.work, stdout=subprocess.PIPE)
+        self.printed = run.stdout.decode()
+        return run.returncode
 
     def expect(self, what, found, expected):
         if found != expected:
@@ -223,6 +230,18 @@ class PageCheck:
         self.expect(f"{what}: on the console", complaints, [])
 
 
+@contextlib.contextmanager
+def browsing(driver, *options):
+    """A browser and a folder, as long as they are needed. @param driver  such as Browser"""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
+        work = pathlib.Path(work)
+        browser = driver(work / "profile", *options)
+        try:
+            yield browser, work
+        finally:
+            browser.close()
+
+
 def run_check(make, *options):
     """Runs make(work, browser).run() and ends the process: 1 if anything is wrong, 77 without Chromium.
 
@@ -231,12 +250,7 @@ def run_check(make, *options):
     if not shutil.which("chromium"):
         print("skipped: chromium (Debian package chromium) is missing")
         sys.exit(77)
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
-        work = pathlib.Path(work)
-        browser = Browser(work / "profile", *options)
-        try:
-            check = make(work, browser)
-            check.run()
-        finally:
-            browser.close()
+    with browsing(Browser, *options) as (browser, work):
+        check = make(work, browser)
+        check.run()
     sys.exit(1 if check.faults else 0)

@@ -7,17 +7,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
 #include "media/png/png_chunk.hpp"
 #include "media/png/png_reader.hpp"
+#include "support/contains.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
+using testing_support::contains;
 using testing_support::TemporaryFolder;
 
 using Lines = std::vector<std::string>;
@@ -29,18 +30,15 @@ class CompareFilesTest : public testing::Test {
     save(name, {width_px, 4, std::vector<std::uint32_t>(std::size_t(width_px) * 4, word)});
   }
   void save(const std::string& name, const Image& image) const {
-    const fs::path path = folder_ / name;
-    fs::create_directories(path.parent_path());
     const Bytes bytes = encode_png_samples(image);
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    text(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
   void pictures(const std::vector<std::string>& names) const {
     for (const std::string& name : names) picture(name);
   }
-  void text(const std::string& name, const std::string& text) const {
+  void text(const std::string& name, std::string_view text) const {
     fs::create_directories(fs::path(folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
+    folder_.save(name, text);
   }
   ComparisonJob job(const std::string& reference, const std::string& actual) const {
     return {folder_ / reference, folder_ / actual};
@@ -102,7 +100,7 @@ TEST_F(CompareFilesTest, LinksAreFollowedButNotForEver) {
   EXPECT_EQ(result_.count(Outcome::unreadable), 0);
   rows("a", "b");
   EXPECT_GT(result_.count(Outcome::unreadable), 0);
-  EXPECT_NE(problems_.find("it leads back to a folder that it is in"), std::string::npos);
+  EXPECT_TRUE(contains(problems_, "it leads back to a folder that it is in"));
 }
 
 TEST_F(CompareFilesTest, PatternsArePairedByNumber) {
@@ -138,7 +136,7 @@ TEST_F(CompareFilesTest, AFileIsPairedByItsNameUnlessBothAreNamed) {
   EXPECT_EQ(rows("a/1.png", "b"), (Lines{"1.png equal", "2.png new"}));
   EXPECT_EQ(rows("b/%d.png", "a/1.png"), (Lines{"1.png equal", "2.png missing"}));
   EXPECT_EQ(rows("c.png", "b"), (Lines{"1.png new", "2.png new", "c.png missing"}));
-  EXPECT_NE(result_.problem.find("has the name of one of"), std::string::npos) << result_.problem;
+  EXPECT_TRUE(contains(result_.problem, "has the name of one of"));
 }
 
 TEST_F(CompareFilesTest, TheComparisonGoesOnAfterWhateverIsFound) {
@@ -155,8 +153,8 @@ TEST_F(CompareFilesTest, TheComparisonGoesOnAfterWhateverIsFound) {
   EXPECT_EQ(rows("a", "b"),
             (Lines{"1.png not comparable", "2.png unreadable", "3.png different", "4.png equal",
                    "5.png unreadable", "6.png equal", "7.png unreadable", "8.png unreadable"}));
-  EXPECT_NE(problems_.find("another size: 5x4 instead of 4x4"), std::string::npos) << problems_;
-  EXPECT_NE(problems_.find("it is no regular file"), std::string::npos) << problems_;
+  EXPECT_TRUE(contains(problems_, "another size: 5x4 instead of 4x4"));
+  EXPECT_TRUE(contains(problems_, "it is no regular file"));
   EXPECT_EQ(result_.worst(), Outcome::unreadable);
 }
 
@@ -175,9 +173,7 @@ TEST_F(CompareFilesTest, TheHardLimitIsNamedAndItsPixelShown) {
     report->add(row);
   });
   report->finish(limited, result);
-  EXPECT_NE(text.find("0 beyond the accepted delta, the largest beyond the hard limit"),
-            std::string::npos)
-      << text;
+  EXPECT_TRUE(contains(text, "0 beyond the accepted delta, the largest beyond the hard limit"));
   const Image strip = read_png(folder_ / "d/000000.png");
   EXPECT_TRUE(std::ranges::any_of(strip.words, [](std::uint32_t word) {
     return (word >> 16 & 0xff) > (word >> 8 & 0xff) + 20;  // red
@@ -188,7 +184,7 @@ TEST_F(CompareFilesTest, TheHardLimitIsNamedAndItsPixelShown) {
 TEST_F(CompareFilesTest, HashesAreNotReadFromAPipe) {
   ASSERT_EQ(::mkfifo((folder_ / "a.framehash").c_str(), 0600), 0);
   rows("a.framehash", "a.framehash");
-  EXPECT_NE(problems_.find("it is no regular file"), std::string::npos) << problems_;
+  EXPECT_TRUE(contains(problems_, "it is no regular file"));
   EXPECT_EQ(result_.worst(), Outcome::unreadable);
 }
 
@@ -221,9 +217,7 @@ TEST_F(CompareFilesTest, AlphaAloneIsADifferenceThatItsPicturesKeep) {
 TEST_F(CompareFilesTest, PicturesOfReportsKeepEverySample) {
   Image picture{16, 256, {}};
   for (std::uint32_t i = 0; i < 16 * 256; ++i) picture.words.push_back(i * 0x01234567U + i % 7);
-  const Bytes bytes = encode_png_samples(picture);
-  std::ofstream(folder_ / "a.png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  save("a.png", picture);
   std::vector<std::uint32_t> words;
   compare_files(job("a.png", "a.png"),
                 [&](const FrameComparison& row) { words = row.reference().words; });

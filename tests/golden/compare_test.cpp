@@ -6,9 +6,8 @@
 
 #include <cstdlib>
 
-#include "draw/canvas.hpp"
-#include "draw/composition.hpp"
-#include "support/property.hpp"
+#include "draw/composed_pictures.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -115,8 +114,7 @@ std::int64_t off_in(const Image& a, const Image& b, const PixelRect& window, int
 }
 
 TEST(Compare, FindsTheDensestWindow) {
-  Random random(21);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(21);
   for (int i = 0; i < 300; ++i) {
     Image a = flat(static_cast<int>(random.integer(1, 24)), static_cast<int>(random.integer(1, 24)),
                    0xff404040);
@@ -182,27 +180,19 @@ TEST(Compare, RefusesImagesOfDifferentDepths) {
   EXPECT_THROW(compare(deep(1023, {0}), deep(65535, {0})), UsageError);
 }
 
-Image painted(const Scene& scene, const State& state) {
-  Canvas canvas(scene.view.width_px, scene.view.height_px);
-  canvas.paint(Composition(scene, *make_pair_log(scene.system)).frame({state}));
-  Image image{scene.view.width_px, scene.view.height_px, {}};
-  for (int y = 0; y < image.height_px; ++y) {
-    const auto* row = reinterpret_cast<const std::uint32_t*>(canvas.view().row(y));
-    image.words.insert(image.words.end(), row, row + image.width_px);
-  }
-  return image;
-}
-
 TEST(Compare, OneDigitOfACounterCannotHideInAFrameOf4K) {
   Scene scene;
   scene.view.width_px = 3840;
   scene.view.height_px = 2160;
-  const auto log = make_pair_log(scene.system);
-  State state = log->state_at(time_of(Instant::last(), *log));
-  const Image right = painted(scene, state);
+  const Pictures pictures(scene);
+  State state = pictures.log->state_at(time_of(Instant::last(), *pictures.log));
+  const auto image = [&] {
+    return Image{3840, 2160, painted(pictures.composition.frame({state}))};
+  };
+  const Image right = image();
   for (const int wrong : {313, 315, 304, 374, 214}) {
     state.count = wrong;
-    const Image other = painted(scene, state);
+    const Image other = image();
     const Difference exact = compared(right, other);
     EXPECT_FALSE(exact.is_accepted) << wrong;
     // A thousandth of the frame may be anything; no place of 16x16 may be wrong in half of it.

@@ -17,4 +17,10 @@ inline std::string text_of(const BitWriter& bits) {
   return text;
 }
 
+/// Spaces may stand between the codes of expected bits.
+inline std::string without_spaces(std::string text) {
+  std::erase(text, ' ');
+  return text;
+}
+
 }  // namespace piblocks::h264

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "h264/bit_text.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -241,11 +241,6 @@ Levels Decoder::read_block(std::size_t size, int context) {
   return block;
 }
 
-std::string without_spaces(std::string text) {
-  std::erase(text, ' ');
-  return text;
-}
-
 /// The bits of a block that starts with `levels`, or "refused".
 std::string coded(Levels levels, int context, std::size_t size = 16) {
   levels.resize(size);
@@ -312,8 +307,7 @@ void expect_round_trip(const Levels& levels, int context) {
 }
 
 TEST(Cavlc, BlocksComeBack) {
-  Random random(264);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(264);
   for (int i = 0; i < 1500; ++i) {
     for (int context = 0; context <= 16; ++context) {
       expect_round_trip(random_block(random, random.integer(0, 1) == 0 ? 15 : 16), context);

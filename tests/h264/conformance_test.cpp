@@ -7,7 +7,7 @@
 
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 #ifdef PIBLOCKS_HAS_OPENH264
 #include "h264/openh264_decoder.hpp"
 #endif
@@ -31,8 +31,7 @@ void expect_every_picture(const Case& c, int qp) {
   const std::int64_t groups = many(5);  // of pictures, in a stream
   constexpr int kFramesInGroup = 12;
   const StreamHeaders headers({.width_px = c.width_px, .height_px = c.height_px, .qp = qp});
-  Random random(static_cast<std::uint64_t>(1000 * qp + c.width_px));
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(static_cast<std::uint64_t>(1000 * qp + c.width_px));
   RandomPictures pictures(headers.width_mb, headers.height_mb, random);
   PictureEncoder encoder(headers.config);
   Decoder decoder(headers.bytes);
@@ -73,8 +72,7 @@ TEST_P(ConformanceTest, OpenH264ShowsEveryPictureAsItWasMade) {
 
 TEST(Conformance, LibavcodecShowsTheLargestDifferencesAsTheyWereMade) {
   constexpr int kSide_px = 64;
-  Random random(255);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(255);
   for (int qp = 0; qp <= kMaxQp; ++qp) {
     const StreamHeaders headers({.width_px = kSide_px, .height_px = kSide_px, .qp = qp});
     PictureEncoder encoder(headers.config);

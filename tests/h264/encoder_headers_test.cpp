@@ -14,7 +14,6 @@ namespace piblocks::h264 {
 namespace {
 
 std::vector<Config> configs() {
-  constexpr std::int64_t kMost = 2147483647;
   return {
       {.width_px = 2, .height_px = 2},
       {.width_px = 1920, .height_px = 1080},
@@ -22,15 +21,16 @@ std::vector<Config> configs() {
       {.width_px = 34, .height_px = 64, .rate_numerator = 1, .rate_denominator = 256, .qp = 0},
       {.width_px = 64, .height_px = 46, .rate_numerator = 7, .qp = 41},
       {.width_px = 352, .height_px = 288, .rate_numerator = 30, .qp = 26},
-      {.width_px = 16880, .height_px = 2, .rate_numerator = kMost, .rate_denominator = kMost},
-      {.width_px = 18, .height_px = 18, .rate_numerator = 1, .rate_denominator = kMost, .qp = 27},
-      {.width_px = 8192, .height_px = 4352, .rate_numerator = 120},
+      {.width_px = 18,
+       .height_px = 18,
+       .rate_numerator = 1,
+       .rate_denominator = 2147483647,
+       .qp = 27},
   };
 }
 
 TEST(EncoderHeaders, AreUnderstoodByLibavcodec) {
   for (const Config& config : configs()) {
-    if (config.width_px > 4000) continue;  // it would take long
     SCOPED_TRACE(config.width_px);
     Encoder encoder(config);
     const CallersPicture picture(config.width_px, config.height_px);

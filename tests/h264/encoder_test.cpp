@@ -15,6 +15,7 @@
 #include "h264/nal_unit.hpp"
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"
+#include "support/message_of.hpp"
 #include "support/property.hpp"
 
 namespace piblocks::h264 {
@@ -23,12 +24,7 @@ namespace {
 constexpr int kMostInt = std::numeric_limits<int>::max();
 
 std::string problem_of(const Config& config) {
-  try {
-    const Encoder encoder(config);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return testing_support::message_of<Error>([&] { Encoder{config}; });
 }
 
 void expect_refused(const Config& config, const std::string& problem) {

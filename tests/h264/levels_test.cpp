@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "support/property.hpp"
+#include "support/contains.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -65,8 +66,7 @@ const Level* lowest_that_holds(int width_px, int height_px, PictureRate rate) {
 }
 
 TEST(Levels, OfRandomPicturesAreTheLowestThatHold) {
-  Random random(31);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(31);
   std::set<int> seen;
   for (std::int64_t i = 0; i < many(20000); ++i) {
     const auto width_px = static_cast<int>(random.integer(1, 1 << random.integer(1, 14)));
@@ -104,7 +104,7 @@ TEST(Levels, EndWhereTheirLimitsAre) {
 }
 
 TEST(LevelProblem, SaysTheLimit) {
-  EXPECT_NE(level_problem(16881, 16, {1, 1}).find("16880 px"), std::string::npos);
+  EXPECT_TRUE(testing_support::contains(level_problem(16881, 16, {1, 1}), "16880 px"));
   EXPECT_EQ(level_problem(8194, 4352, {1, 1}),
             "8194x4352 are 139536 macroblocks of 16x16 pixels, more than the 139264 of level 6.2, "
             "the highest");
@@ -173,8 +173,7 @@ PictureRate random_rate(Random& random) {
 
 /// Sizes that the buffer has exactly, nearly, or by far not.
 TEST(RateWatch, IsAnExactLeakyBucket) {
-  Random random(20);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(20);
   int kept = 0;
   int broken = 0;
   for (std::int64_t i = 0; i < many(600); ++i) {
@@ -255,8 +254,7 @@ TEST(RateWatch, TakesTheLargestNumbers) {
 }
 
 TEST(LevelWatch, IsTheLowestLevelThatNeverBreaks) {
-  Random random(62);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(62);
   std::set<int> seen;
   for (std::int64_t i = 0; i < many(500); ++i) {
     const auto width_px = static_cast<int>(random.integer(1, 2000));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "h264/picture.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -39,8 +39,7 @@ TEST(MacroblockSet, CountsThem) {
 }
 
 TEST(MacroblockSet, VisitsWhatIsTouchedOnceAndInOrder) {
-  Random random(6);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(6);
   for (int run = 0; run < 200; ++run) {
     const int width_mb = static_cast<int>(random.integer(1, 20));
     const int height_mb = static_cast<int>(random.integer(1, 20));

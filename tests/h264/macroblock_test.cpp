@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "h264/bit_text.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -142,8 +142,7 @@ void for_each_qp(const std::function<void(int, const MacroblockCoder&)>& check) 
 }
 
 TEST(MacroblockCoder, SkipsWhatHasNotChanged) {
-  Random random(1);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(1);
   for_each_qp([&](int, const MacroblockCoder& coder) {
     for (const Samples& samples : {flat(200), text(random), noise(random, 128, 255)}) {
       const CodedMacroblock coded = coder.code(inside(samples, samples, 128));
@@ -184,17 +183,9 @@ TEST(MacroblockCoder, WritesPredictionAsTheTablesSay) {
   MacroblockInput input = inside(flat(90), flat(255), 90);
   // I_16x16 that predicts from above has mb_type 1, and 5 more in P slices; intra_chroma_pred_mode
   // is 0, mb_qp_delta is 0, and the coeff_token of no DC levels is 1.
-  EXPECT_EQ(text_of(coder.code(input).bits),
-            "00111"
-            "1"
-            "1"
-            "1");
+  EXPECT_EQ(text_of(coder.code(input).bits), without_spaces("00111 1 1 1"));
   input.slice_type = SliceType::i;
-  EXPECT_EQ(text_of(coder.code(input).bits),
-            "010"
-            "1"
-            "1"
-            "1");
+  EXPECT_EQ(text_of(coder.code(input).bits), without_spaces("010 1 1 1"));
 }
 
 TEST(MacroblockCoder, WritesDifferencesAsTheTablesSay) {
@@ -209,17 +200,11 @@ TEST(MacroblockCoder, WritesDifferencesAsTheTablesSay) {
   const CodedMacroblock coded = coder.code(input);
   ASSERT_EQ(coded.type, MbType::p_l0_16x16);
   // mb_type 0, two vectors of 0, coded_block_pattern 1 with codeNum 2, mb_qp_delta of 0.
-  EXPECT_EQ(text_of(coded.bits).substr(0, 7),
-            "1"
-            "1"
-            "1"
-            "011"
-            "1");
+  EXPECT_EQ(text_of(coded.bits).substr(0, 7), without_spaces("1 1 1 011 1"));
 }
 
 TEST(MacroblockCoder, TakesTheSamplesOfNoiseAtALowQp) {
-  Random random(2);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(2);
   MacroblockCoder coder(0);
   for (int i = 0; i < 50; ++i) {
     const MacroblockInput input = inside(noise(random, 128, 255), noise(random, 128, 255), 128);
@@ -236,19 +221,14 @@ TEST(MacroblockCoder, WritesSamplesAtAWholeByte) {
   bits.put(1, 1);
   write_i_pcm(SliceType::i, flat(0x5a), bits);
   // mb_type 25
-  EXPECT_EQ(text_of(bits).substr(0, 24),
-            "1"
-            "000011010"
-            "000000"
-            "01011010");
+  EXPECT_EQ(text_of(bits).substr(0, 24), without_spaces("1 000011010 000000 01011010"));
   EXPECT_EQ(bits.bit_count(), 16u + 8 * 384);
 }
 
 /// Uncorrected samples stay until the macroblock changes again.
 TEST(MacroblockCoder, NeitherTakesTooManyBitsNorLeavesASampleFarOffWithoutCorrection) {
   constexpr int kTimes = 400;
-  Random random(3);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(3);
   RandomInputs inputs(random);
   std::array<int, 5> types{};
   for_each_qp([&](int qp, const MacroblockCoder& coder) {
@@ -280,8 +260,7 @@ TEST(MacroblockCoder, DoesNotLeaveOneSampleThatIsFurtherOff) {
 
 TEST(MacroblockCoder, KeepsTextReadableAtTheDefaultQp) {
   constexpr int kMost = 10;
-  Random random(6);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(6);
   RandomInputs inputs(random);
   MacroblockCoder coder(kDefaultQp);
   int largest = 0;

@@ -8,7 +8,7 @@
 
 #include "h264/picture_encoder.hpp"
 #include "h264/stream_fixture.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -89,8 +89,7 @@ int chroma_sample(const Picture& picture, int plane, int x, int y, MotionVector 
 }
 
 TEST(PredictMoved, IsInterPredictionInsideAndOutsideThePicture) {
-  Random random(84);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(84);
   const auto pick = [&](int first, int last) {
     return static_cast<int>(random.integer(first, last));
   };
@@ -121,8 +120,7 @@ const MacroblockState kSkipped;
 const Neighbours kBesideStill = {&kSkipped, &kSkipped, &kSkipped};
 
 TEST(MotionSearch, FindsWhatSlidOrScrolled) {
-  Random random(16);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(16);
   const Picture before = noise(random, 8, 8);
   for (const MotionVector moved :
        {MotionVector{3, 0}, {-17, 0}, {48, 0}, {0, 1}, {0, -48}, {16, 0}, {-1, 0}}) {
@@ -134,8 +132,7 @@ TEST(MotionSearch, FindsWhatSlidOrScrolled) {
 }
 
 TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) {
-  Random random(61);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(61);
   const Picture before = noise(random, 8, 8);
   Samples other;
   noise(random, 8, 8).load(1, 1, other);
@@ -149,8 +146,7 @@ TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) 
 }
 
 TEST(MotionSearch, GoesFarWhereMuchHasChanged) {
-  Random random(3);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(3);
   const Picture before = noise(random, 3, 20);
   Samples other;
   noise(random, 3, 20).load(1, 1, other);
@@ -165,8 +161,7 @@ TEST(MotionSearch, GoesFarWhereMuchHasChanged) {
 }
 
 TEST(MotionSearch, TakesWhatACoarserQuantiserLeavesForTheSame) {
-  Random random(4);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(4);
   const Picture before = noise(random, 8, 8);
   Samples source;
   predict_moved(before, 4, 4, {5, 0}, source);
@@ -176,8 +171,7 @@ TEST(MotionSearch, TakesWhatACoarserQuantiserLeavesForTheSame) {
 }
 
 TEST(MotionSearch, StaysWithinTheRangeOfAllLevelsWhereMotionSpeedsUp) {
-  Random random(48);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(48);
   const Picture before = noise(random, 3, 28);
   MotionSearch search(14);
   for (int distance = 40; distance <= 140; ++distance) {
@@ -243,8 +237,7 @@ void draw_window(Picture& picture, const Picture& noise, const Rect& window, int
 }
 
 TEST(Motion, FollowsLargeWindowsThatScrollFarOrAreDragged) {
-  Random random(66);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(66);
   const Picture texture = noise(random, 60, 60);
   const StreamHeaders headers({.width_px = 640, .height_px = 480});
   PictureEncoder encoder(headers.config);

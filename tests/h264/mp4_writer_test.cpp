@@ -5,9 +5,12 @@
 
 #include "h264/encoder.hpp"
 #include "h264/mp4_file.hpp"
+#include "support/message_of.hpp"
 
 namespace piblocks::h264 {
 namespace {
+
+using testing_support::message_of;
 
 /// A sequence parameter set of level 2.0, and a picture parameter set.
 const ByteVector kHeaders = {0, 0, 0, 1, 0x67, 66, 0xc0, 20, 0xda, 0, 0, 0, 1, 0x68, 0xce, 0x3c};
@@ -45,12 +48,7 @@ void append_pictures(Mp4Writer& writer, std::int64_t pictures) {
 }
 
 std::string problem_of(const Mp4Track& track) {
-  try {
-    Mp4Writer(track, [](auto, auto) {});
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<Error>([&] { Mp4Writer(track, [](auto, auto) {}); });
 }
 
 /// The file of a stream with these access units.
@@ -262,12 +260,7 @@ TEST(Mp4Writer, NamesWhatIsOutOfRange) {
 /// An append() that throws changes nothing.
 TEST(Mp4Writer, RefusesWhatHasNoRoom) {
   const auto problem = [](Mp4Writer& writer, const ByteVector& unit, bool is_idr) {
-    try {
-      writer.append(unit, is_idr);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return message_of<Error>([&] { writer.append(unit, is_idr); });
   };
   Mp4Memory file;
   Mp4Writer writer(track_of(2), file.writer());

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -109,8 +109,7 @@ bool has_forbidden_bytes(const Bytes& payload) {
 }
 
 TEST(NalUnit, UnitsComeBack) {
-  Random random(7);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(7);
   for (int i = 0; i < 5000 && !HasFailure(); ++i) {
     std::vector<Bytes> written;
     Bytes stream;

@@ -12,7 +12,7 @@
 #include "h264/bit_stream.hpp"
 #include "h264/nal_unit.hpp"
 #include "media/libav/av.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -236,8 +236,7 @@ TEST(MayFollow, NothingThatIsCutOffOrGoesOn) {
 
 /// The sanitizers would say if anything is read that is not there.
 TEST(MayFollow, OfAnyBytesIsAnswered) {
-  Random random(66);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(66);
   for (int i = 0; i < 20000; ++i) {
     Bytes stream = stream_of({.profile_idc = i % 2 == 0 ? 66U : 100U, .has_extension = i % 3 == 0});
     for (std::int64_t flips = random.integer(1, 4); flips > 0; --flips) {

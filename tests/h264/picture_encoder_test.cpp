@@ -12,7 +12,7 @@
 #include "h264/stream_fixture.hpp"
 #include "media/pixels/yuv.hpp"
 #include "support/article_frames.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -156,8 +156,7 @@ TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
 }
 
 TEST_F(PictureEncoderTest, KeepsFlatColoursExactWithinOne) {
-  Random random(10);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(10);
   PictureEncoder encoder(kConfig);
   encoded_idr(encoder, picture_);
   for (int i = 0; i < 200; ++i) {
@@ -211,8 +210,7 @@ TEST_F(PictureEncoderTest, MakesTheSameGroupAfterAnyOther) {
 }
 
 TEST_F(PictureEncoderTest, MakesKeyFramesOfTheSameBytesWhetherItRemembersTheLastOrNot) {
-  Random random(7);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(7);
   for (const int qp : {2, 14, 34}) {
     Config config = kConfig;
     config.qp = qp;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -100,8 +100,7 @@ TEST_F(PictureTest, KnowsWhatIsBesideAMacroblock) {
 }
 
 TEST(Samples, MeasuresHowMuchTheyDiffer) {
-  Random random(8);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(8);
   for (int run = 0; run < 200; ++run) {
     Samples a = random_samples(random);
     Samples b = random_samples(random);

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <functional>
 
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -213,8 +213,7 @@ void for_each_quantiser(const std::function<void(const Quantiser&, int, Rounding
 
 TEST(Transform, DoesWhatTheClausesSayForEveryQp) {
   constexpr int kBlocks = 500;
-  Random random(85);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(85);
   for_each_quantiser([&](const Quantiser& quantiser, int qp, Rounding rounding) {
     Range range;
     for (int i = 0; i < kBlocks; ++i) {
@@ -262,8 +261,7 @@ TEST(Transform, MultipliesCoefficientsOfEverySize) {
 TEST(ChromaDc, DoesWhatTheClausesSayForEveryQp) {
   constexpr int kBlocks = 2000;
   constexpr int kMost = 16 * 255;
-  Random random(8511);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(8511);
   for (int qp = 0; qp <= 51; ++qp) {
     const Rounding rounding = kRoundings[static_cast<std::size_t>(random.integer(0, 1))];
     const Quantiser quantiser(qp, rounding);
@@ -326,8 +324,7 @@ Pair worst_pair(int sum, std::size_t i, std::size_t j) {
 }
 
 TEST(NegligibleSum, LeavesNoLevel) {
-  Random random(1);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(1);
   for_each_quantiser([&](const Quantiser& quantiser, int, Rounding) {
     const int sum = quantiser.negligible_sum();
     for (std::size_t place = 0; place < 16; ++place) {

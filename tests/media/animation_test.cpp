@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
-#include <algorithm>
-
 #include "media/libav/av_module.hpp"
 #include "media/libav/color_table.hpp"
 #include "media/output/output.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
-#include "support/property.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -137,8 +135,7 @@ TEST(ColorTable, KeepsAFewPixelsOfAColourOfTheirOwn) {
 }
 
 TEST(ColorTable, GivesEveryColourTheNearestThatIsKept) {
-  Random random(256);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(256);
   for (const std::size_t room : {1U, 7U, 255U, 256U}) {
     ColorTable table;
     std::vector<std::uint32_t> colors;

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "media/png/png_reader.hpp"
+#include "support/contains.hpp"
 #include "support/hand_made_png.hpp"
-#include "support/property.hpp"
+#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -117,24 +118,16 @@ std::vector<MadeFrame> random_animation(Random& random, int count, int bits, Png
 
 class ApngReaderTest : public testing::Test {
  protected:
-  std::string saved(const std::string& bytes) const {
-    const std::string path = folder_ / "a.png";
-    std::ofstream(path, std::ios::binary) << bytes;
-    return path;
-  }
   std::vector<AnyImage> frames_of(const std::string& bytes) const {
     std::vector<AnyImage> frames;
-    const auto reader = read_apng(saved(bytes));
+    const auto reader = read_apng(folder_.save("a.png", bytes));
     while (reader->next()) frames.push_back(reader->samples());
     return frames;
   }
   void expect_refusal(const std::string& bytes, const std::string& what) const {
-    try {
-      frames_of(bytes);
-      ADD_FAILURE() << "nothing is wrong; expected: " << what;
-    } catch (const MediaError& error) {
-      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
-    }
+    const std::string said = testing_support::message_of<MediaError>([&] { frames_of(bytes); });
+    EXPECT_NE(said, "") << "nothing is wrong; expected: " << what;
+    EXPECT_TRUE(testing_support::contains(said, what));
   }
 
   TemporaryFolder folder_;
@@ -196,8 +189,7 @@ double worst_error(const Picture& picture, double max_level, const Colours& expe
 }
 
 TEST_F(ApngReaderTest, ShowsWhatFramesLeaveAndCover) {
-  Random random(71);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(71);
   for (int i = 0; i < 60; ++i) {
     const int bits = i % 2 == 0 ? 8 : 16;
     auto frames = random_animation(random, 7, bits, PngColour::rgba);
@@ -256,8 +248,7 @@ TEST_F(ApngReaderTest, TakesHeaderChunksAroundTheFirstControl) {
 }
 
 TEST_F(ApngReaderTest, RefusesWhatIsCutOffOrDamagedAnywhere) {
-  Random random(72);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(72);
   const auto apng = apng_of(random_animation(random, 3, 8, PngColour::rgba, 2, 2));
   const std::string whole = apng.file();
   ASSERT_EQ(frames_of(whole).size(), 3U);
@@ -271,8 +262,7 @@ TEST_F(ApngReaderTest, RefusesWhatIsCutOffOrDamagedAnywhere) {
 }
 
 TEST_F(ApngReaderTest, RefusesChunksThatAreMissingDoubledOrSwapped) {
-  Random random(73);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(73);
   const auto apng = apng_of(random_animation(random, 4, 8, PngColour::rgb));
   for (std::size_t i = 0; i < apng.chunks.size(); ++i) {
     if (apng.chunks[i] == png_chunk("IDAT", "")) continue;  // has no meaning
@@ -296,8 +286,7 @@ TEST_F(ApngReaderTest, RefusesChunksThatAreMissingDoubledOrSwapped) {
 }
 
 TEST_F(ApngReaderTest, SaysWhatIsWrong) {
-  Random random(74);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(74);
   const auto frames = random_animation(random, 3, 8, PngColour::rgb);
   const MadeApng apng = apng_of(frames);
   const auto with = [&](std::size_t at, const std::string& type, const std::string& data) {

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "media/libav/decoded_frame.hpp"
-#include "support/property.hpp"
+#include "support/contains.hpp"
+#include "support/message_of.hpp"
+#include "support/traced_random.hpp"
 
 extern "C" {
 #include <libavutil/imgutils.h>
@@ -17,6 +19,7 @@ extern "C" {
 
 namespace piblocks {
 namespace {
+using testing_support::contains;
 
 struct PictureKind {
   AVPixelFormat format;
@@ -219,8 +222,7 @@ constexpr std::array kFormats = {
     AV_PIX_FMT_YUVA444P16LE, AV_PIX_FMT_YUVA422P10,  AV_PIX_FMT_YUVA420P9,   AV_PIX_FMT_AYUV64LE};
 
 TEST(DecodedRgb, IsExactForEveryFormatMatrixAndRange) {
-  Random random(61);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(61);
   for (const AVPixelFormat format : kFormats) {
     for (const AVColorSpace matrix : kMatrices) {
       for (const AVColorRange range : {AVCOL_RANGE_MPEG, AVCOL_RANGE_JPEG}) {
@@ -236,8 +238,7 @@ TEST(DecodedRgb, IsExactForEveryFormatMatrixAndRange) {
 }
 
 TEST(DecodedRgb, ChromaIsWhereItIsSited) {
-  Random random(62);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(62);
   for (const AVPixelFormat format :
        {AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUV422P, AV_PIX_FMT_YUV440P, AV_PIX_FMT_YUV411P,
         AV_PIX_FMT_YUV410P, AV_PIX_FMT_YUV420P10, AV_PIX_FMT_YUVA420P16LE}) {
@@ -296,15 +297,11 @@ TEST(DecodedRgb, RefusesAMatrixThatIsNone) {
         AVCOL_SPC_CHROMA_DERIVED_CL, AVCOL_SPC_RESERVED}) {
     const AvFramePtr frame = empty_frame({AV_PIX_FMT_YUV420P10, matrix}, 4, 4);
     EXPECT_NO_THROW(samples_of(*frame));
-    try {
-      rgb_of(*frame, "a.nut");
-      ADD_FAILURE() << matrix;
-    } catch (const MediaError& error) {
-      const std::string message = error.what();
-      EXPECT_NE(message.find("cannot compare 'a.nut' as RGB"), std::string::npos) << message;
-      const char* const name = av_color_space_name(matrix);
-      EXPECT_NE(message.find(name == nullptr ? std::to_string(matrix) : name), std::string::npos);
-    }
+    const std::string message =
+        testing_support::message_of<MediaError>([&] { rgb_of(*frame, "a.nut"); });
+    EXPECT_TRUE(contains(message, "cannot compare 'a.nut' as RGB"));
+    const char* const name = av_color_space_name(matrix);
+    EXPECT_TRUE(contains(message, name == nullptr ? std::to_string(matrix) : name));
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "media/libav/decoded_frame.hpp"
 #include "media/pixels/frame_reader.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 extern "C" {
 #include <libavutil/imgutils.h>
@@ -109,8 +109,7 @@ int differing(const AnyImage& a, const AnyImage& b) {
 
 /// Hardly any two entries of a random palette are equal.
 TEST(VideoSamples, EverySampleOfEveryFormatIsReadWhereItIs) {
-  Random random(41);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(41);
   std::size_t comparable = 0;
   for (const AVPixFmtDescriptor* format : formats_in_memory()) {
     SCOPED_TRACE(format->name);
@@ -135,8 +134,7 @@ TEST(VideoSamples, EverySampleOfEveryFormatIsReadWhereItIs) {
 }
 
 TEST(VideoSamples, AnySizeOfAnyFormatCanBeReadAndShown) {
-  Random random(42);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(42);
   for (const AVPixFmtDescriptor* format : formats_in_memory()) {
     SCOPED_TRACE(format->name);
     for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {17, 9}, {70, 5}}) {
@@ -154,8 +152,7 @@ TEST(VideoSamples, AnySizeOfAnyFormatCanBeReadAndShown) {
 }
 
 TEST(VideoSamples, TheArrangementInMemoryIsNoDifference) {
-  Random random(43);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(43);
   const AVPixFmtDescriptor& planar = *av_pix_fmt_desc_get(AV_PIX_FMT_YUV420P);
   const std::vector<Plane> planes = random_planes(random, planar, 32, 16);
   const AvFramePtr reference = picture_of(random, planar, 32, 16);

@@ -2,14 +2,12 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
-#include <fstream>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "support/decode_video.hpp"
-#include "support/property.hpp"
+#include "media/libav/av_module.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -107,10 +105,8 @@ std::vector<Words> shown_of(const std::vector<MadeImage>& images) {
 class GifReaderTest : public testing::Test {
  protected:
   std::vector<Words> frames_of(const std::string& bytes) const {
-    const std::string path = folder_ / "a.gif";
-    std::ofstream(path, std::ios::binary) << bytes;
     std::vector<Words> frames;
-    const auto reader = read_video(path);
+    const auto reader = read_video(folder_.save("a.gif", bytes));
     while (reader->next()) frames.push_back(std::get<Image>(reader->samples()).words);
     return frames;
   }
@@ -134,8 +130,7 @@ MadeImage random_image(Random& random, bool is_whole) {
 }
 
 TEST_F(GifReaderTest, ShowsWhatBrowsersShow) {
-  Random random(81);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(81);
   for (std::int64_t run = 0; run < many(100); ++run) {
     std::vector<MadeImage> images;
     for (int i = 0; i < 6; ++i) images.push_back(random_image(random, i == 0 && run % 2 == 0));

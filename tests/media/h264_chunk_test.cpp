@@ -5,13 +5,14 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include "h264/stream_fixture.hpp"
 #include "media/pixels/yuv.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
-#include "support/property.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 
@@ -179,25 +180,17 @@ class ChangingFrame {
   Pixels pixels_;
 };
 
-struct Size {
-  int width_px;
-  int height_px;
-};
-
-std::ostream& operator<<(std::ostream& out, const Size& size) {
-  return out << size.width_px << 'x' << size.height_px;
-}
+/// Of frames, in pixels.
+using Size = std::pair<int, int>;
 
 class BuiltinChunkSizeTest : public BuiltinChunkTest, public testing::WithParamInterface<Size> {};
 
 TEST_P(BuiltinChunkSizeTest, ShowsWhatWasDrawnFromTheRegionAlone) {
   constexpr int kChunks = 6;
-  const VideoFormat format = {
-      .width_px = GetParam().width_px, .height_px = GetParam().height_px, .frame_rate = 30};
-  const h264::StreamHeaders headers(
-      h264::Config{.width_px = format.width_px, .height_px = format.height_px});
-  Random random(11);
-  SCOPED_TRACE(random.trace());
+  const auto [width_px, height_px] = GetParam();
+  const VideoFormat format = {.width_px = width_px, .height_px = height_px, .frame_rate = 30};
+  const h264::StreamHeaders headers(h264::Config{.width_px = width_px, .height_px = height_px});
+  TracedRandom random(11);
   for (const EncoderSettings& settings : {EncoderSettings{}, kBuiltin}) {
     const auto made = output(settings, format);
     const auto encoder = made.make_encoder();

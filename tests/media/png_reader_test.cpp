@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "support/hand_made_png.hpp"
-#include "support/property.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -24,11 +23,7 @@ using testing_support::TemporaryFolder;
 
 class PngReaderTest : public testing::Test {
  protected:
-  std::string saved(const std::string& bytes) const {
-    const std::string path = folder_ / "a.png";
-    std::ofstream(path, std::ios::binary) << bytes;
-    return path;
-  }
+  std::string saved(const std::string& bytes) const { return folder_.save("a.png", bytes); }
   AnyImage samples_of(const HandMadePng& png) const {
     return read_png_samples(saved(file_of(png)));
   }
@@ -101,8 +96,7 @@ std::vector<std::uint32_t> add_palette(Random& random, HandMadePng& png) {
 }
 
 TEST_F(PngReaderTest, KeepsEverySampleOfEveryKind) {
-  Random random(31);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(31);
   for (const Kind& kind : kKinds) {
     for (int i = 0; i < 12; ++i) {
       HandMadePng png = random_png(random, kind);
@@ -161,8 +155,7 @@ TEST_F(PngReaderTest, AColourCanBeTransparentAtAnyDepth) {
 }
 
 TEST_F(PngReaderTest, RefusesWhatIsDamagedAnywhere) {
-  Random random(32);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(32);
   const std::string whole = file_of(random_png(random, {PngColour::rgba, 16}));
   EXPECT_NO_THROW(read_png_samples(saved(whole)));
   for (std::size_t i = 0; i < whole.size(); ++i) {

@@ -2,7 +2,6 @@
 #include <piblocks/encode.hpp>
 
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,8 +9,8 @@
 #include "media/output/output.hpp"
 #include "media/png/png_reader.hpp"
 #include "support/decode_video.hpp"
-#include "support/property.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -19,12 +18,13 @@ using testing_support::article_frame;
 using testing_support::Pixels;
 using testing_support::random_frame;
 using testing_support::TemporaryFolder;
+using testing_support::transparent_frame;
+using testing_support::with_alpha;
 
 /// A picture in a file.
 std::string saved(const TemporaryFolder& folder, const ImageView& image) {
   const std::vector<std::uint8_t> png = encode_png(image);
-  std::ofstream(folder / "a.png", std::ios::binary) << std::string(png.begin(), png.end());
-  return folder / "a.png";
+  return folder.save("a.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 void expect_same_pixels(const Pixels& image) {
@@ -102,8 +102,7 @@ PixelRect change(Random& random, Pixels& image) {
 }
 
 TEST(Png, AnUpdateGivesTheBytesOfTheImageAlone) {
-  Random random(8);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(8);
   for (int i = 0; i < 60; ++i) {
     Pixels image = random_frame(static_cast<int>(random.integer(1, 40)),
                                 static_cast<int>(random.integer(1, 60)), static_cast<unsigned>(i));
@@ -118,28 +117,9 @@ TEST(Png, AnUpdateGivesTheBytesOfTheImageAlone) {
   }
 }
 
-/// Random pixels, with colours that are not greater than alpha.
-Pixels transparent_frame(Random& random, int width_px, int height_px) {
-  Pixels image(width_px, height_px);
-  for (std::uint32_t& word : image.words) {
-    const std::int64_t alpha = random.integer(0, 2) == 0 ? random.integer(0, 255) : 255;
-    word = static_cast<std::uint32_t>(alpha << 24 | random.integer(0, alpha) << 16 |
-                                      random.integer(0, alpha) << 8 | random.integer(0, alpha));
-  }
-  return image;
-}
-
-ImageView with_alpha(const Pixels& image) {
-  ImageView view = image.view();
-  view.has_alpha = true;
-  return view;
-}
-
 TEST(Png, KeepsAlphaAndTheColoursAsTheyWereBefore) {
-  Random random(9);
-  SCOPED_TRACE(random.trace());
   const TemporaryFolder folder;
-  const Pixels image = transparent_frame(random, 61, 47);
+  const Pixels image = transparent_frame(61, 47, 9);
   const Image read = read_png(saved(folder, with_alpha(image)));
   for (std::size_t i = 0; i < image.words.size(); ++i) {
     const std::uint32_t alpha = image.words[i] >> 24;
@@ -152,16 +132,15 @@ TEST(Png, KeepsAlphaAndTheColoursAsTheyWereBefore) {
 }
 
 TEST(Png, AnUpdateWithAlphaGivesTheBytesOfTheImageAlone) {
-  Random random(10);
-  SCOPED_TRACE(random.trace());
-  Pixels image = transparent_frame(random, 33, 21);
+  TracedRandom random(10);
+  Pixels image = transparent_frame(33, 21, 10);
   const Output sequence = sequence_of(with_alpha(image));
   const auto encoder = sequence.make_encoder();
   ASSERT_EQ(encoded(*encoder, with_alpha(image)), encode_png(with_alpha(image)));
-  for (int step = 0; step < 50; ++step) {
+  for (std::uint32_t step = 0; step < 50; ++step) {
     const auto x = static_cast<int>(random.integer(0, 32));
     const auto y = static_cast<int>(random.integer(0, 20));
-    image.at(x, y) = transparent_frame(random, 1, 1).at(0, 0);
+    image.at(x, y) = transparent_frame(1, 1, step).at(0, 0);
     ASSERT_EQ(encoded(*encoder, with_alpha(image), {{x, y, 1, 1}}), encode_png(with_alpha(image)));
   }
 }

@@ -5,7 +5,6 @@
 
 #include <limits>
 
-#include "support/decode_video.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -67,10 +66,6 @@ std::size_t bytes_of(const EncodedChunk& packets) {
   return bytes;
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 void read_all(const std::string& path) {
   ShardReader reader(path);
   while (reader.next()) {
@@ -127,7 +122,7 @@ class DamagedShard : public testing::Test {
   }
   /// @param at  where the damage begins
   void expect_noticed(const std::string& bytes, std::size_t at) const {
-    write_text(folder_ / "damaged", bytes);
+    folder_.save("damaged", bytes);
     EXPECT_THROW(read_all(folder_ / "damaged"), Error) << at;
     if (at < end_of_sound_) {
       EXPECT_THROW(sound_in(folder_ / "damaged"), Error) << at;
@@ -160,10 +155,10 @@ TEST(ShardFile, IsToldFromOtherFiles) {
   const TemporaryFolder folder;
   for (const std::string text : {"", "\n", "piblocks part 2\n\nE", "piblocks part 1", "PNG",
                                  "piblocks part 1\nno colon\n\nE"}) {
-    write_text(folder / "other", text);
+    folder.save("other", text);
     EXPECT_THROW(ShardReader(folder / "other"), UsageError) << text;
   }
-  write_text(folder / "long", "piblocks part 1\n" + std::string(5'000'000, 'a'));
+  folder.save("long", "piblocks part 1\n" + std::string(5'000'000, 'a'));
   EXPECT_THROW(ShardReader(folder / "long"), UsageError);
   EXPECT_THROW(ShardReader(folder / "none"), UsageError);
   EXPECT_THROW(ShardReader(folder.path()), UsageError);
@@ -183,8 +178,7 @@ TEST(ShardFile, RefusesWhatIsNoLine) {
 TEST(ShardFile, TakesNoMemoryForSizesThatAFileOnlyClaims) {
   const TemporaryFolder folder;
   const std::string packet = std::string(17, '\0') + "\xff\xff\xff\xff";
-  write_text(folder / "a",
-             "piblocks part 1\n\nC" + std::string("\xff\xff\xff\xff", 4) + packet + "bytes");
+  folder.save("a", "piblocks part 1\n\nC" + std::string("\xff\xff\xff\xff", 4) + packet + "bytes");
   EXPECT_THROW(read_all(folder / "a"), IoError);
 }
 

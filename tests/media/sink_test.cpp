@@ -13,13 +13,16 @@
 #include "media/pixels/yuv.hpp"
 #include "media/png/png_mark.hpp"
 #include "media/write_frames.hpp"
+#include "support/contains.hpp"
 #include "support/decode_video.hpp"
+#include "support/message_of.hpp"
 #include "support/ordinary_user.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
+using testing_support::contains;
 using testing_support::file_contents;
 using testing_support::ordinary_user_problem;
 using testing_support::OrdinaryUser;
@@ -31,26 +34,17 @@ const VideoFormat kSmall = {.width_px = 64, .height_px = 36, .frame_rate = 10};
 /// The error of opening, or "" if it works.
 std::string opening_error(const std::string& name, const VideoFormat& format,
                           const EncoderSettings& settings = {}) {
-  try {
-    set_up_output(name, format, settings).open(1000);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-testing::AssertionResult has(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
+  return testing_support::message_of<UsageError>(
+      [&] { set_up_output(name, format, settings).open(1000); });
 }
 
 TEST(SetUpOutput, ListsTheKindsWhenANameHasNone) {
   for (const char* output : {"out.avi", "out", "", "mp4", "null.txt", "./null", "out.mp4/"}) {
     const std::string what = opening_error(output, kSmall);
-    EXPECT_TRUE(has(what, std::string("'") + output + "'"));
+    EXPECT_TRUE(contains(what, std::string("'") + output + "'"));
     for (const char* kind : {"*.mp4", "*.mov", "*.webm", "*.gif", "*.apng", "*.png", "%06d",
                              "*.y4m", "- (", "*.framehash", "null", "*.wav (sound alone)"}) {
-      EXPECT_TRUE(has(what, kind));
+      EXPECT_TRUE(contains(what, kind));
     }
     EXPECT_EQ(std::ranges::count(what, '\n'), 0) << what;
   }
@@ -66,15 +60,15 @@ TEST(SetUpOutput, ReportsAllProblemsAtOnce) {
 }
 
 TEST(SetUpOutput, RefusesFramesThatDoNotFitInMemoryOrTime) {
-  EXPECT_TRUE(has(opening_error("null", {16384, 16384, 60}), "16384x16384"));
-  EXPECT_TRUE(has(opening_error("null", {10, 10, 0}), "30000/1001"));
-  EXPECT_TRUE(has(opening_error("null", {10, 10, Rational("1/9000000000")}), "out of range"));
+  EXPECT_TRUE(contains(opening_error("null", {16384, 16384, 60}), "16384x16384"));
+  EXPECT_TRUE(contains(opening_error("null", {10, 10, 0}), "30000/1001"));
+  EXPECT_TRUE(contains(opening_error("null", {10, 10, Rational("1/9000000000")}), "out of range"));
   EXPECT_EQ(opening_error("null", {16384, 4096, 60}), "");
 }
 
 TEST(SetUpOutput, RefusesEncoderSettingsThatWouldBeIgnored) {
-  EXPECT_TRUE(has(opening_error("out.y4m", kSmall, {.crf = 20}), "has no use for"));
-  EXPECT_TRUE(has(opening_error("%d.png", kSmall, {.preset = "slow"}), "*.mp4"));
+  EXPECT_TRUE(contains(opening_error("out.y4m", kSmall, {.crf = 20}), "has no use for"));
+  EXPECT_TRUE(contains(opening_error("%d.png", kSmall, {.preset = "slow"}), "*.mp4"));
 }
 
 TEST(SetUpOutput, SaysWhatCanBeTransparent) {
@@ -83,8 +77,8 @@ TEST(SetUpOutput, SaysWhatCanBeTransparent) {
   format.has_alpha = true;
   for (const char* name : {"out.mp4", "out.gif", "out.y4m", "-"}) {
     const std::string what = opening_error(name, format);
-    EXPECT_TRUE(has(what, std::string("'") + name + "' cannot be transparent"));
-    EXPECT_TRUE(has(what, "*.mov, *.webm, *.apng, *.png"));
+    EXPECT_TRUE(contains(what, std::string("'") + name + "' cannot be transparent"));
+    EXPECT_TRUE(contains(what, "*.mov, *.webm, *.apng, *.png"));
     EXPECT_TRUE(what.ends_with(", *.framehash")) << what;
   }
   for (const char* name : {"out.mov", "out.webm", "out.apng", "%d.png", "out.framehash"}) {
@@ -94,36 +88,36 @@ TEST(SetUpOutput, SaysWhatCanBeTransparent) {
 
 TEST(SetUpOutput, RefusesRatesThatAPictureFileCannotTell) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(has(opening_error("a.gif", {10, 10, 60}), "use --fps 50 or 25"));
-  EXPECT_TRUE(has(opening_error("a.gif", {10, 10, Rational("1/1000")}), "too low"));
+  EXPECT_TRUE(contains(opening_error("a.gif", {10, 10, 60}), "use --fps 50 or 25"));
+  EXPECT_TRUE(contains(opening_error("a.gif", {10, 10, Rational("1/1000")}), "too low"));
   EXPECT_EQ(opening_error(folder / "a.gif", {10, 10, 50}), "");
-  EXPECT_TRUE(has(opening_error("a.apng", {10, 10, Rational("65536/1")}), "up to 65535"));
+  EXPECT_TRUE(contains(opening_error("a.apng", {10, 10, Rational("65536/1")}), "up to 65535"));
   EXPECT_EQ(opening_error(folder / "a.apng", {10, 10, Rational("60000/1001")}), "");
 }
 
 TEST(SetUpOutput, TellsWhyAnEncoderOfMovOrWebmIsNoGood) {
   VideoFormat format = kSmall;
   EXPECT_TRUE(
-      has(opening_error("a.webm", format, {.encoder = "libx264"}), "use one of: libvpx-vp9"));
-  EXPECT_TRUE(has(opening_error("a.webm", format, {.crf = 64}), "use 0 (best) to 63"));
-  EXPECT_TRUE(has(opening_error("a.webm", format, {.crf = 10.5}),
-                  "crf 10.5 is no whole number, as *.webm needs; use 10 or 11"));
-  EXPECT_TRUE(has(opening_error("a.webm", format, {.preset = "fast"}), "has no presets"));
+      contains(opening_error("a.webm", format, {.encoder = "libx264"}), "use one of: libvpx-vp9"));
+  EXPECT_TRUE(contains(opening_error("a.webm", format, {.crf = 64}), "use 0 (best) to 63"));
+  EXPECT_TRUE(contains(opening_error("a.webm", format, {.crf = 10.5}),
+                       "crf 10.5 is no whole number, as *.webm needs; use 10 or 11"));
+  EXPECT_TRUE(contains(opening_error("a.webm", format, {.preset = "fast"}), "has no presets"));
   EXPECT_TRUE(
-      has(opening_error("a.mov", format, {.encoder = "nope"}), "cannot use encoder 'nope'"));
-  EXPECT_TRUE(has(opening_error("a.mov", format, {.encoder = "vp9"}), ", prores_ks"));
-  EXPECT_FALSE(has(opening_error("a.mp4", format, {.encoder = "vp9"}), "prores_ks"));
+      contains(opening_error("a.mov", format, {.encoder = "nope"}), "cannot use encoder 'nope'"));
+  EXPECT_TRUE(contains(opening_error("a.mov", format, {.encoder = "vp9"}), ", prores_ks"));
+  EXPECT_FALSE(contains(opening_error("a.mp4", format, {.encoder = "vp9"}), "prores_ks"));
   format.has_alpha = true;
-  EXPECT_TRUE(has(opening_error("a.mov", format, {.encoder = "libx264"}), "use prores_ks"));
-  EXPECT_TRUE(has(opening_error("a.mov", format, {.crf = 3, .preset = "slow"}), "has no crf"));
-  EXPECT_TRUE(has(opening_error("a.webm", format, {.encoder = "av1"}), "use vp9"));
+  EXPECT_TRUE(contains(opening_error("a.mov", format, {.encoder = "libx264"}), "use prores_ks"));
+  EXPECT_TRUE(contains(opening_error("a.mov", format, {.crf = 3, .preset = "slow"}), "has no crf"));
+  EXPECT_TRUE(contains(opening_error("a.webm", format, {.encoder = "av1"}), "use vp9"));
 }
 
 TEST(SetUpOutput, SaysWhichEvenSizeToUse) {
   const TemporaryFolder folder;
   for (const char* name : {"out.mp4", "out.mov", "out.webm", "out.y4m"}) {
-    EXPECT_TRUE(has(opening_error(folder / name, {1921, 1081, 60}), "use 1920x1080"));
-    EXPECT_TRUE(has(opening_error(folder / name, {1, 10, 60}), "use 2x10"));
+    EXPECT_TRUE(contains(opening_error(folder / name, {1921, 1081, 60}), "use 1920x1080"));
+    EXPECT_TRUE(contains(opening_error(folder / name, {1, 10, 60}), "use 2x10"));
   }
   EXPECT_TRUE(folder.is_empty());
   EXPECT_EQ(opening_error(folder / "%d.png", {1921, 1081, 60}), "");
@@ -165,7 +159,7 @@ TEST_P(EveryFile, LeavesNoTraceWhenAbandoned) {
 TEST_P(EveryFile, CannotBeBelowAFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "a") << "not a folder";
-  EXPECT_TRUE(has(opening_error(folder / GetParam(), kSmall), folder / "a"));
+  EXPECT_TRUE(contains(opening_error(folder / GetParam(), kSmall), folder / "a"));
   EXPECT_EQ(file_contents(folder / "a"), "not a folder");
 }
 
@@ -177,7 +171,7 @@ TEST_P(EveryFile, NeedsAFolderThatCanBeWritten) {
   fs::permissions(folder.path(), search, fs::perm_options::add);
   fs::permissions(folder / "a", search);
   const OrdinaryUser user;
-  EXPECT_TRUE(has(opening_error(folder / GetParam(), kSmall), "Permission denied"));
+  EXPECT_TRUE(contains(opening_error(folder / GetParam(), kSmall), "Permission denied"));
 }
 
 TEST_P(EveryFile, RefusesAFrameOfAnotherSize) {
@@ -361,9 +355,9 @@ TEST(Framehash, IsWhatFfmpegSaysOfTheSameFrames) {
 TEST(MediaLibraries, TellTheirVersions) {
   const auto versions = media_library_versions();
   ASSERT_EQ(versions.size(), 5u);
-  EXPECT_TRUE(has(versions[1], "libavcodec "));
-  EXPECT_TRUE(has(versions[3], "giflib 5."));
-  EXPECT_TRUE(has(versions[4], "zlib 1."));
+  EXPECT_TRUE(contains(versions[1], "libavcodec "));
+  EXPECT_TRUE(contains(versions[3], "giflib 5."));
+  EXPECT_TRUE(contains(versions[4], "zlib 1."));
 }
 
 }  // namespace

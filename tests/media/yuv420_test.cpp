@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
-#include "media/pixels/yuv.hpp"
+#include "media/yuv_pictures.hpp"
 #include "support/article_frames.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 
@@ -21,48 +20,22 @@ using testing_support::random_frame;
 /// How far a sample may be from the exact value; half of it is rounding to a whole number.
 constexpr long double kTolerance = 0.53L;
 
-struct Picture {
-  Picture(int width, int height, std::uint8_t filling = 0)
-      : width_px(width),
-        height_px(height),
-        y(static_cast<std::size_t>(width * height), filling),
-        cb(y.size() / 4, filling),
-        cr(y.size() / 4, filling) {}
-
-  YuvView<std::uint8_t> view() {
-    return {{y.data(), width_px}, {cb.data(), width_px / 2}, {cr.data(), width_px / 2}};
-  }
-  std::size_t luma_index(int x, int row) const {
-    return static_cast<std::size_t>(row * width_px + x);
-  }
-  std::size_t chroma_index(int x, int row) const {
-    return static_cast<std::size_t>(row / 2 * (width_px / 2) + x / 2);
-  }
-
-  int width_px;
-  int height_px;
-  std::vector<std::uint8_t> y, cb, cr;
-};
+using Picture = YuvPicture<std::uint8_t>;
 
 Picture converted(const Pixels& pixels) {
-  Picture picture(pixels.width_px, pixels.height_px);
+  Picture picture(pixels.width_px, pixels.height_px, 2);
   convert_to_yuv420(pixels.view(), {0, 0, pixels.width_px, pixels.height_px}, picture.view());
   return picture;
 }
 
-struct Exact {
-  long double y, cb, cr;
-};
-
-/// ITU-R BT.709-6, 3.2 to 3.4, of levels 0 to 255.
-Exact bt709(long double red, long double green, long double blue) {
-  const long double luma = 0.2126L * red + 0.7152L * green + 0.0722L * blue;
-  return {16 + luma * 219 / 255, 128 + (blue - luma) / 1.8556L * 224 / 255,
-          128 + (red - luma) / 1.5748L * 224 / 255};
+ExactYuv bt709(std::uint32_t pixel) {
+  return piblocks::bt709((pixel >> 16) & 0xff, (pixel >> 8) & 0xff, pixel & 0xff);
 }
 
-Exact bt709(std::uint32_t pixel) {
-  return bt709((pixel >> 16) & 0xff, (pixel >> 8) & 0xff, pixel & 0xff);
+/// How far the chroma of a pixel is from the exact value.
+long double chroma_error(const Picture& picture, int x, int y, const ExactYuv& exact) {
+  return std::max(std::abs(picture.cb.at(x / 2, y / 2) - exact.cb),
+                  std::abs(picture.cr.at(x / 2, y / 2) - exact.cr));
 }
 
 TEST(Yuv420, LumaIsRightForEveryColour) {
@@ -71,7 +44,7 @@ TEST(Yuv420, LumaIsRightForEveryColour) {
   const Picture picture = converted(pixels);
   long double worst = 0;
   for (std::uint32_t i = 0; i < pixels.words.size(); ++i) {
-    worst = std::max(worst, std::abs(picture.y[i] - bt709(i).y));
+    worst = std::max(worst, std::abs(picture.y.samples[i] - bt709(i).y));
   }
   EXPECT_LE(worst, kTolerance);
 }
@@ -92,10 +65,8 @@ TEST(Yuv420, ChromaIsRightForFlatColours) {
   long double worst = 0;
   for (int row = 0; row < kLevels * kLevels; ++row) {
     for (int column = 0; column < kLevels; ++column) {
-      const Exact exact = bt709(colour(column, row));
-      const std::size_t at = picture.chroma_index(4 * column + 2, 2 * row);
-      worst = std::max(
-          {worst, std::abs(picture.cb[at] - exact.cb), std::abs(picture.cr[at] - exact.cr)});
+      worst = std::max(worst,
+                       chroma_error(picture, 4 * column + 2, 2 * row, bt709(colour(column, row))));
     }
   }
   EXPECT_LE(worst, kTolerance);
@@ -106,10 +77,10 @@ TEST(Yuv420, GreysHaveNoColour) {
     Pixels pixels(2, 2);
     std::ranges::fill(pixels.words, 0xff000000 | level * 0x010101);
     const Picture picture = converted(pixels);
-    EXPECT_EQ(picture.cb[0], 128) << level;
-    EXPECT_EQ(picture.cr[0], 128) << level;
+    EXPECT_EQ(picture.cb.at(0, 0), 128) << level;
+    EXPECT_EQ(picture.cr.at(0, 0), 128) << level;
   }
-  EXPECT_EQ(converted(Pixels(2, 2)).y[0], 235);
+  EXPECT_EQ(converted(Pixels(2, 2)).y.at(0, 0), 235);
 }
 
 TEST(Yuv420, ChromaIsSitedLeft) {
@@ -127,10 +98,8 @@ TEST(Yuv420, ChromaIsSitedLeft) {
             for (unsigned i = 0; i < 3; ++i) mean[i] += weight * ((pixel >> (8 * i)) & 0xff);
           }
         }
-        const Exact exact = bt709(mean[2], mean[1], mean[0]);
-        const std::size_t at = picture.chroma_index(x, y);
-        worst = std::max(
-            {worst, std::abs(picture.cb[at] - exact.cb), std::abs(picture.cr[at] - exact.cr)});
+        worst = std::max(worst,
+                         chroma_error(picture, x, y, piblocks::bt709(mean[2], mean[1], mean[0])));
       }
     }
     EXPECT_LE(worst, kTolerance) << width;
@@ -142,18 +111,17 @@ TEST(Yuv420, ARectangleIsConvertedAsInTheWholeFrame) {
   const Picture whole = converted(pixels);
   for (const PixelRect rect : {PixelRect{0, 0, 2, 2}, PixelRect{2, 4, 600, 8},
                                PixelRect{510, 38, 690, 2}, PixelRect{1198, 0, 2, 40}}) {
-    constexpr std::uint8_t kUntouched = 7;
-    Picture part(1200, 40, kUntouched);
+    const Picture untouched(1200, 40, 2, 7);
+    Picture part = untouched;
     convert_to_yuv420(pixels.view(), rect, part.view());
     for (int y = 0; y < pixels.height_px; ++y) {
       for (int x = 0; x < pixels.width_px; ++x) {
         const bool inside =
             x >= rect.x_px && x < rect.right_px() && y >= rect.y_px && y < rect.bottom_px();
-        const std::size_t luma = whole.luma_index(x, y);
-        const std::size_t chroma = whole.chroma_index(x, y);
-        ASSERT_EQ(part.y[luma], inside ? whole.y[luma] : kUntouched) << x << ' ' << y;
-        ASSERT_EQ(part.cb[chroma], inside ? whole.cb[chroma] : kUntouched) << x << ' ' << y;
-        ASSERT_EQ(part.cr[chroma], inside ? whole.cr[chroma] : kUntouched) << x << ' ' << y;
+        const Picture& expected = inside ? whole : untouched;
+        ASSERT_EQ(part.y.at(x, y), expected.y.at(x, y)) << x << ' ' << y;
+        ASSERT_EQ(part.cb.at(x / 2, y / 2), expected.cb.at(x / 2, y / 2)) << x << ' ' << y;
+        ASSERT_EQ(part.cr.at(x / 2, y / 2), expected.cr.at(x / 2, y / 2)) << x << ' ' << y;
       }
     }
   }
@@ -163,17 +131,14 @@ TEST(Yuv420, VectorInstructionsChangeNoSample) {
   for (const int width : {2, 14, 16, 18, 30, 34, 62, 66, 126, 510, 512, 514, 1030, 1920}) {
     const Pixels pixels = random_frame(width, 20, static_cast<unsigned>(width));
     const Picture fast = converted(pixels);
-    Picture slow(width, 20);
+    Picture slow(width, 20, 2);
     convert_to_yuv420_scalar(pixels.view(), {0, 0, width, 20}, slow.view());
-    EXPECT_EQ(fast.y, slow.y) << width;
-    EXPECT_EQ(fast.cb, slow.cb) << width;
-    EXPECT_EQ(fast.cr, slow.cr) << width;
+    EXPECT_TRUE(fast == slow) << width;
   }
 }
 
 TEST(Yuv420, AChangeReachesNoSampleOutsideOfItsAlignedRectangle) {
-  Random random(420);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(420);
   for (int i = 0; i < 300; ++i) {
     const int width = 2 * static_cast<int>(random.integer(1, 12));
     const int height = 2 * static_cast<int>(random.integer(1, 5));
@@ -189,18 +154,15 @@ TEST(Yuv420, AChangeReachesNoSampleOutsideOfItsAlignedRectangle) {
       }
     }
     convert_to_yuv420(pixels.view(), chroma_aligned(changed, pixels.view()), picture.view());
-    const Picture whole = converted(pixels);
-    ASSERT_EQ(picture.y, whole.y);
-    ASSERT_EQ(picture.cb, whole.cb);
-    ASSERT_EQ(picture.cr, whole.cr);
+    ASSERT_TRUE(picture == converted(pixels));
   }
 }
 
 TEST(Yuv420, TakesNoRectangleForNothing) {
   const Pixels pixels(4, 4);
-  Picture picture(4, 4, 7);
+  Picture picture(4, 4, 2, 7);
   convert_to_yuv420(pixels.view(), {2, 2, 0, 0}, picture.view());
-  EXPECT_EQ(picture.y, std::vector<std::uint8_t>(16, 7));
+  EXPECT_TRUE(picture == Picture(4, 4, 2, 7));
 }
 
 }  // namespace

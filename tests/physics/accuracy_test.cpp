@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "support/oracle.hpp"
-#include "support/property.hpp"
 #include "support/random_system.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -83,8 +83,7 @@ TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
 }
 
 TEST(Accuracy, AtRandomTimes) {
-  Random random(314159);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(314159);
   for (int digits : {1, 2, 3, 5, 9, 12, 17, 25, 40, 100}) {
     const TwoBlocks system = article_blocks(digits);
     const auto log = make_pair_log(system);
@@ -100,8 +99,7 @@ TEST(Accuracy, AtRandomTimes) {
 }
 
 TEST(Accuracy, OfRandomSystems) {
-  Random random(271828);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(271828);
   for (int i = 0; i < 400; ++i) {
     const TwoBlocks system = random_system(random, -8, 25);
     const auto log = make_pair_log(system);
@@ -124,31 +122,20 @@ void expect_event(const oracle::ExactEvent& exact, CollisionKind kind, const Tim
   EXPECT_NEAR(red.velocity, to_double(exact.red.velocity), 2e-15);
 }
 
-TEST(Accuracy, OfTheWholeLog) {
-  for (int digits = 1; digits <= 3; ++digits) {
-    const TwoBlocks system = article_blocks(digits);
-    const auto log = make_pair_log(system);
-    const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
-    ASSERT_EQ(log->last(), run.size());
-    for (std::size_t i = 0; i < run.size(); ++i) {
-      SCOPED_TRACE("collision " + std::to_string(i + 1));
-      const PairCollision c = log->blocks_collision(Integer(i + 1));
-      expect_event(run[i], c.kind, c.time, c.blue, c.red);
-    }
-  }
-}
-
-TEST(Accuracy, OfTheStreamedLog) {
+TEST(Accuracy, OfTheWholeLogAndItsStream) {
   for (int digits = 1; digits <= 4; ++digits) {
     const TwoBlocks system = article_blocks(digits);
     const auto log = make_pair_log(system);
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 4000);
+    ASSERT_EQ(log->last(), run.size());
     const auto batch = std::make_unique<PairBatch>();
     const auto stream = log->stream(1, log->last());
     std::size_t i = 0;
     while (stream->read(*batch)) {
       for (std::size_t row = 0; row < batch->size; ++row, ++i) {
         SCOPED_TRACE("collision " + std::to_string(i + 1));
+        const PairCollision c = log->blocks_collision(Integer(i + 1));
+        expect_event(run[i], c.kind, c.time, c.blue, c.red);
         expect_event(run[i], batch->kind[row], {batch->time_hi[row], batch->time_lo[row]},
                      {batch->blue_position[row], batch->blue_velocity[row]},
                      {batch->red_position[row], batch->red_velocity[row]});

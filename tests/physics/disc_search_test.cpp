@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "physics/discs/disc_stepper.hpp"
-#include "support/property.hpp"
 #include "support/random_discs.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -42,8 +42,7 @@ void put_into(System& system, const Body& large) {
 }
 
 TEST(DiscSearch, CellsFindWhatAllPairsFind) {
-  Random random(31);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(31);
   for (const std::uint32_t number : {17u, 40u, 150u}) {
     expect_same_steps(random_gas(random, number), 4000);
   }
@@ -51,8 +50,7 @@ TEST(DiscSearch, CellsFindWhatAllPairsFind) {
 }
 
 TEST(DiscSearch, LargeDiscsAreFoundInTheirZones) {
-  Random random(32);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(32);
   System system = random_gas(random, 400);
   put_into(system, {Rational(200), {25, 25}, {Rational(1, 3), Rational(-1, 7)}, 9});
   put_into(system, {std::nullopt, {10, 40}, {0, 0}, 6});
@@ -63,8 +61,7 @@ TEST(DiscSearch, LargeDiscsAreFoundInTheirZones) {
 }
 
 TEST(DiscSearch, DiscsThatLeaveTheGridAreFound) {
-  Random random(33);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(33);
   System system = random_gas(random, 100);
   system.walls = {{"left", {-300, 0}, {1, 0}},
                   {"right", {500, 0}, {-1, 0}},
@@ -74,8 +71,7 @@ TEST(DiscSearch, DiscsThatLeaveTheGridAreFound) {
 }
 
 TEST(DiscSearch, DiscsAtRestAndImmovableOnesAreFound) {
-  Random random(34);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(34);
   System system = random_gas(random, 120);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     if (i % 7 == 3) system.bodies[i].mass.reset();
@@ -85,8 +81,7 @@ TEST(DiscSearch, DiscsAtRestAndImmovableOnesAreFound) {
 }
 
 TEST(DiscSearch, OrderOfListingDoesNotMatter) {
-  Random random(35);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(35);
   const System system = random_gas(random, 60);
   std::vector<std::uint32_t> places(system.bodies.size());
   std::iota(places.begin(), places.end(), 0u);
@@ -120,8 +115,7 @@ TEST(DiscSearch, OrderOfListingDoesNotMatter) {
 }
 
 TEST(DiscSearch, GeneralEngineFindsTheSame) {
-  Random random(36);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(36);
   int collisions = 0;
   for (int trial = 0; trial < 20; ++trial) {
     System system = random_gas(random, 20);
@@ -150,8 +144,7 @@ TEST(DiscSearch, GeneralEngineFindsTheSame) {
 }
 
 TEST(DiscSearch, TenThousandDiscsKeepTheirEnergy) {
-  Random random(37);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(37);
   const System system = random_gas(random, 10'000);
   const auto energy_of = [&](std::size_t body, const std::array<double, 2>& v) {
     return system.bodies[body].mass->get_d() * (v[0] * v[0] + v[1] * v[1]) / 2;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "support/property.hpp"
 #include "support/random_discs.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -72,8 +72,7 @@ class Motions {
 double square(const std::array<double, 2>& v) { return v[0] * v[0] + v[1] * v[1]; }
 
 TEST(DiscStepper, CollisionsKeepMomentumAndEnergy) {
-  Random random(41);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(41);
   const System system = random_gas(random, 50);
   const auto stepper = make_disc_stepper(system);
   Motions motions(system);
@@ -102,8 +101,7 @@ TEST(DiscStepper, CollisionsKeepMomentumAndEnergy) {
 }
 
 TEST(DiscStepper, DiscsOverlapAtNoTime) {
-  Random random(42);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(42);
   for (const std::uint32_t number : {5u, 40u}) {
     const System system = random_gas(random, number, 4);
     const auto stepper = make_disc_stepper(system);
@@ -271,8 +269,7 @@ TEST(DiscStepper, WallsComeAfterDiscs) {
 }
 
 TEST(DiscStepper, PowersOfTwoScaleEverythingExactly) {
-  Random random(43);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(43);
   const System system = random_gas(random, 30);
   System scaled = system;
   const Rational length = Rational(1) << 300;

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "support/property.hpp"
+#include "support/message_of.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -18,6 +19,7 @@ struct Space {
   static constexpr int kDim = Dimension;
 };
 
+using testing_support::message_of;
 using Wide = boost::multiprecision::cpp_bin_float_50;
 
 /// Properties that hold in every dimension and for every number type.
@@ -81,8 +83,7 @@ using Spaces = testing::Types<Space<double, 1>, Space<double, 2>, Space<double, 
 TYPED_TEST_SUITE(EventSimulatorIn, Spaces);
 
 TYPED_TEST(EventSimulatorIn, ConservesMomentumAndEnergyAndKeepsBallsApart) {
-  Random random(11);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(11);
   std::int64_t collisions = 0;
   for (int trial = 0; trial < 10; ++trial) {
     const auto balls = TestFixture::random_balls(12, random);
@@ -114,8 +115,7 @@ TYPED_TEST(EventSimulatorIn, ConservesMomentumAndEnergyAndKeepsBallsApart) {
 
 // Errors grow with every collision of convex bodies, so the way back is retraced for a few.
 TYPED_TEST(EventSimulatorIn, RetracesItsPathWhenVelocitiesAreReversed) {
-  Random random(12);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(12);
   const auto start = TestFixture::random_balls(8, random);
   typename TestFixture::Simulator forth(start);
   while (forth.count() < 6 && forth.step()) {
@@ -165,8 +165,7 @@ Rod rod(double mass, double position, double velocity) {
 
 // Six rods between two walls never stop.
 TEST(EventSimulator, KeepsTheOrderOfRodsBetweenWalls) {
-  Random random(13);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(13);
   std::vector<Rod> rods = {rod(kInfiniteMass<double>, -0.5, 0)};
   for (int i = 0; i < 6; ++i) {
     rods.push_back(rod(random.uniform(0.01, 100), 2 * i + 1, random.uniform(-1, 1)));
@@ -221,21 +220,12 @@ TEST(EventSimulator, TakesNoParticlesAndOne) {
   EXPECT_TRUE(Rods({rod(1, 0, 1)}).run(0).empty());
 }
 
-std::string message_of(const auto& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(EventSimulator, StopsAtTheLimit) {
   const std::vector<Rod> blocks = {rod(1, 2, 0), rod(100, 5, -1),
                                    rod(kInfiniteMass<double>, -0.5, 0)};
   EXPECT_EQ(Rods(blocks).run(31).size(), 31u);
   EXPECT_THROW(Rods(blocks).run(30), SimulationError);
-  EXPECT_EQ(message_of([&] { Rods(blocks).run(30); }),
+  EXPECT_EQ(message_of<Error>([&] { Rods(blocks).run(30); }),
             "simulation: collision 31: the limit of 30 was reached");
 }
 
@@ -257,11 +247,11 @@ TEST(EventSimulator, ReportsNumbersThatLeaveTheRange) {
   EXPECT_THROW(Rods({rod(1, -huge, 1), rod(1, huge, -1)}), SimulationError);
   // The meeting is too far in the future.
   Rods late({rod(1, 0, 0), rod(1, 1e10, -1e-300)});
-  EXPECT_EQ(message_of([&] { late.step(); }),
+  EXPECT_EQ(message_of<Error>([&] { late.step(); }),
             "simulation: collision 1: its time is out of the number type's range");
   // The radii are lost beside the distance, and the centres coincide.
   Rods lost({rod(1, 0, 0), rod(1, 1e100, -1)});
-  EXPECT_EQ(message_of([&] { lost.step(); }),
+  EXPECT_EQ(message_of<Error>([&] { lost.step(); }),
             "simulation: collision 1: the state of particle 0 is out of the number type's range");
 }
 
@@ -271,7 +261,7 @@ TEST(EventSimulator, ReportsEverythingWrongWithItsParticlesAtOnce) {
   thin.radius = 0;
   Rod light_wall = rod(1, 9, 0);
   light_wall.facing[0] = 1;
-  EXPECT_EQ(message_of([&] {
+  EXPECT_EQ(message_of<Error>([&] {
               Rods({rod(-1, nan, 0), thin, rod(1, 8, nan), light_wall});
             }),
             "simulation: particle 0: mass is not positive\n"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "support/exposure_sums.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -85,7 +85,7 @@ class DirectSum {
 
 void expect_the_sum_of_all_flights(const PairLog& log, const Rational& begin, const Rational& end) {
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const PairExposure exposure = expose(log, begin, end);
+  const PairExposure exposure = log.expose(begin, end);
   DirectSum blue(BlockName::blue, positions_in(exposure.blue_range));
   DirectSum red(BlockName::red, positions_in(exposure.red_range));
   const PairState first = log.blocks_at(begin);
@@ -150,9 +150,9 @@ TEST(Exposure, OfEveryEngineIsTheSumOfAllFlights) {
 void expect_additive(const PairLog& log, const Rational& begin, const Rational& middle,
                      const Rational& end) {
   SCOPED_TRACE(begin.get_str() + ", " + middle.get_str() + ", " + end.get_str());
-  const PairExposure whole = expose(log, begin, end);
-  const PairExposure early = expose(log, begin, middle);
-  const PairExposure late = expose(log, middle, end);
+  const PairExposure whole = log.expose(begin, end);
+  const PairExposure early = log.expose(begin, middle);
+  const PairExposure late = log.expose(middle, end);
   const double weight = to_double((middle - begin) / (end - begin));
   for (const BlockName block : kBlocks) {
     for (const double position : positions_in(whole.range(block))) {
@@ -169,8 +169,7 @@ void expect_additive(const PairLog& log, const Rational& begin, const Rational& 
 }
 
 TEST(Exposure, IsAdditiveAtAnyNumberOfDigits) {
-  Random random(613);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(613);
   for (const int digits : {1, 2, 3, 4, 6, 9, 14, 20, 60}) {
     SCOPED_TRACE(digits);
     const auto log = make_pair_log(article_blocks(digits));
@@ -211,7 +210,7 @@ void expect_shares_of_instants(const PairLog& log, const Rational& begin, const 
                                Random& random) {
   constexpr int kInstants = 4000;
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const PairExposure exposure = expose(log, begin, end);
+  const PairExposure exposure = log.expose(begin, end);
   expect_distribution(exposure);
   std::vector<PairState> states;
   for (int i = 0; i < kInstants; ++i) {
@@ -236,8 +235,7 @@ void expect_shares_of_instants(const PairLog& log, const Rational& begin, const 
 }
 
 TEST(Exposure, AgreesWithInstants) {
-  Random random(1618);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(1618);
   for (const int digits : {1, 3, 5, 12, 20}) {
     SCOPED_TRACE(digits);
     const auto log = make_pair_log(article_blocks(digits));
@@ -252,8 +250,7 @@ TEST(Exposure, AgreesWithInstants) {
 }
 
 TEST(Exposure, BeforeTimeZeroRunsTheMotionBack) {
-  Random random(2718);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(2718);
   // The turn is 3 before time 0, collisions on both sides of it.
   for (const Rational& mass : {Rational(1, 2), Rational(100), power(100, 6)}) {
     TwoBlocks late;
@@ -273,7 +270,7 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
   for (const int digits : {1, 3, 20}) {
     const auto log = make_pair_log(article_blocks(digits));
     for (const Rational& time : {Rational(0), Rational(3, 2), Rational(7, 2), Rational(9)}) {
-      const PairExposure exposure = expose(*log, time, time);
+      const PairExposure exposure = log->expose(time, time);
       const PairState state = log->blocks_at(time);
       ASSERT_EQ(exposure.pieces.size(), 1U);
       for (const BlockName block : kBlocks) {
@@ -289,8 +286,8 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
 TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
   for (const int digits : {1, 3, 9}) {
     const auto log = make_pair_log(article_blocks(digits));
-    const PairExposure forth = expose(*log, 3, 4);
-    const PairExposure back = expose(*log, 4, 3);
+    const PairExposure forth = expose(*log, 3, 4).closed->blocks;
+    const PairExposure back = expose(*log, 4, 3).closed->blocks;
     for (const BlockName block : kBlocks) {
       for (const double position : positions_in(forth.range(block))) {
         EXPECT_EQ(area_below(forth, block, position), area_below(back, block, position));
@@ -304,7 +301,7 @@ TEST(Exposure, OfACornerPassesIt) {
   system.blue.position = Rational(1, 2);
   const auto log = make_pair_log(system);
   const Rational meeting = log->blocks_collision(1).time.hi;
-  const PairExposure exposure = expose(*log, meeting - 1, meeting + 1);
+  const PairExposure exposure = log->expose(meeting - 1, meeting + 1);
   EXPECT_FALSE(exposure.area_below);
   expect_distribution(exposure);
   EXPECT_NEAR(share_below(exposure, BlockName::red, 2), 0.5, 1e-9);
@@ -312,7 +309,7 @@ TEST(Exposure, OfACornerPassesIt) {
 
 TEST(Exposure, OfManyCollisionsHasSlowBouncesBetweenTheSamePlaces) {
   const auto log = make_pair_log(article_blocks(9));
-  const PairExposure exposure = expose(*log, Rational(7, 2) - Rational(1, 120), Rational(7, 2));
+  const PairExposure exposure = log->expose(Rational(7, 2) - Rational(1, 120), Rational(7, 2));
   ASSERT_TRUE(exposure.area_below);
   for (const BlockName block : kBlocks) {
     const Travel range = exposure.range(block);

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "support/oracle.hpp"
-#include "support/property.hpp"
 #include "support/random_system.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -81,8 +81,7 @@ Integer any_index(Random& random, const Integer& size) {
 }
 
 TEST(Gaps, AroundTheTurnAtAnyNumberOfDigits) {
-  Random random(161803);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(161803);
   for (int digits : {1, 2, 3, 4, 5, 6, 7, 9, 12, 15, 17, 20, 40, 100}) {
     SCOPED_TRACE(digits);
     TwoBlocks system = article_blocks(digits);
@@ -108,8 +107,7 @@ TEST(Gaps, AroundTheTurnAtAnyNumberOfDigits) {
 }
 
 TEST(Gaps, JustAfterACollision) {
-  Random random(577215);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(577215);
   for (int digits = 1; digits <= 20; ++digits) {
     SCOPED_TRACE(digits);
     const TwoBlocks system = article_blocks(digits);
@@ -125,8 +123,7 @@ TEST(Gaps, JustAfterACollision) {
 }
 
 TEST(Gaps, OfRandomSystems) {
-  Random random(141421);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(141421);
   for (std::int64_t i = 0; i < many(150); ++i) {
     const TwoBlocks system = random_system(random, -4, 40);
     const auto log = make_pair_log(system);

@@ -14,8 +14,8 @@
 #include "physics/impact.hpp"
 #include "support/exposure_sums.hpp"
 #include "support/oracle.hpp"
-#include "support/property.hpp"
 #include "support/random_system.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -148,30 +148,36 @@ bool is_in_range(const Rational& time) {
   return abs(time) < Rational(kLongest) && (time == 0 || abs(time) > Rational(kShortest));
 }
 
-TEST(HeavyRed, HasEveryCollisionInItsPlace) {
-  Random random(602214);
-  SCOPED_TRACE(random.trace());
-  Worst one_by_one;
-  Worst streamed;
-  const auto batch = std::make_unique<PairBatch>();
-  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+/// Calls check(system, log) for random systems whose collisions do not happen all at once.
+template <typename Check>
+void for_each_system(Random& random, int number, const Check& check) {
+  for (int i = 0; i < number && !testing::Test::HasFailure(); ++i) {
     const TwoBlocks system = random_heavy_system(random);
     if (corner_of(system)) continue;
     SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
                  ", velocities " + system.blue.velocity.get_str() + ", " +
                  system.red.velocity.get_str());
+    check(system, *make_pair_log(system, Engine::unfolded));
+  }
+}
+
+TEST(HeavyRed, HasEveryCollisionInItsPlace) {
+  TracedRandom random(602214);
+  Worst one_by_one;
+  Worst streamed;
+  const auto batch = std::make_unique<PairBatch>();
+  for_each_system(random, 200, [&](const TwoBlocks& system, const PairLog& log) {
     const Rational turn = turn_of(system).value();
-    const auto log = make_pair_log(system, Engine::unfolded);
-    for (const Integer& index : indices_of(random, system, *log)) {
+    for (const Integer& index : indices_of(random, system, log)) {
       SCOPED_TRACE("collision " + index.get_str());
       const oracle::ExactEvent exact = oracle::high_precision_collision(system, index, 2500);
       if (!is_in_range(exact.time)) continue;
-      const PairCollision one = log->blocks_collision(index);
+      const PairCollision one = log.blocks_collision(index);
       compare(system, exact, turn, one.kind, to_rational(one.time), one.blue, one.red, one_by_one);
 
       // In a block with others before or after it.
       const Integer first = std::max<Integer>(1, index - random.integer(0, 100));
-      const auto stream = log->stream(first, index);
+      const auto stream = log.stream(first, index);
       Integer row = index - first;
       while (stream->read(*batch) && row >= static_cast<unsigned long>(batch->size)) {
         row -= static_cast<unsigned long>(batch->size);
@@ -182,25 +188,18 @@ TEST(HeavyRed, HasEveryCollisionInItsPlace) {
               {batch->blue_position[r], batch->blue_velocity[r]},
               {batch->red_position[r], batch->red_velocity[r]}, streamed);
     }
-  }
+  });
   one_by_one.record("at");
   streamed.record("stream");
 }
 
 TEST(HeavyRed, HasItsStatesBetweenCollisions) {
-  Random random(299792);
-  SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 200 && !testing::Test::HasFailure(); ++i) {
-    const TwoBlocks system = random_heavy_system(random);
-    if (corner_of(system)) continue;
-    SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
-                 ", velocities " + system.blue.velocity.get_str() + ", " +
-                 system.red.velocity.get_str());
-    const auto log = make_pair_log(system, Engine::unfolded);
+  TracedRandom random(299792);
+  for_each_system(random, 200, [&](const TwoBlocks& system, const PairLog& log) {
     for (int j = 0; j < 4; ++j) {
       const Rational time = random.rational(-10, 10, 1000);
       SCOPED_TRACE("t = " + time.get_str());
-      const PairState given = log->blocks_at(time);
+      const PairState given = log.blocks_at(time);
       const oracle::ExactState exact = oracle::high_precision_state(system, time, 2500);
       EXPECT_EQ(given.count, exact.count);
       // What blue has travelled, and from where, is rounded; not how long the turn takes.
@@ -210,21 +209,17 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
           << given.blue.position << ", not " << to_double(exact.blue.position);
       EXPECT_LE(quotient(Rational(given.red.position) - exact.red.position, way), 8 * kRoundoff);
     }
-  }
+  });
 }
 
 TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
-  Random random(667408);
-  SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 50 && !testing::Test::HasFailure(); ++i) {
-    const TwoBlocks system = random_heavy_system(random);
-    if (corner_of(system)) continue;
+  TracedRandom random(667408);
+  for_each_system(random, 50, [&](const TwoBlocks& system, const PairLog& log) {
     const Rational turn = turn_of(system).value();
-    const auto log = make_pair_log(system, Engine::unfolded);
-    for (const Integer& index : indices_of(random, system, *log)) {
+    for (const Integer& index : indices_of(random, system, log)) {
       SCOPED_TRACE("from collision " + index.get_str());
       const Integer last = index + random.integer(0, 5);
-      if (last > log->last()) continue;
+      if (last > log.last()) continue;
       Rational impulse;
       Rational moment;
       Rational furthest;
@@ -238,12 +233,12 @@ TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
       }
       if (impulse == 0 || !is_in_range(furthest)) continue;
       const Rational mean = moment / impulse;
-      const auto together = log->impact(CollisionKind::blocks, index, last);
+      const auto together = log.impact(CollisionKind::blocks, index, last);
       ASSERT_TRUE(together.has_value());
       EXPECT_LE(quotient(to_rational(together->time) - mean, time_bound(mean, turn)), 1)
           << together->time.hi << ", not " << to_double(mean);
     }
-  }
+  });
 }
 
 /// The share of [begin, end] in which blue is at most `position`, by the oracle's collisions.
@@ -273,49 +268,38 @@ Rational share_below(const TwoBlocks& system, const Rational& begin, const Ratio
 }
 
 TEST(HeavyRed, IsExposedAsLongAsItIsThere) {
-  Random random(160217);
-  SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
-    const TwoBlocks system = random_heavy_system(random);
-    if (corner_of(system)) continue;
-    SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
-                 ", velocities " + system.blue.velocity.get_str() + ", " +
-                 system.red.velocity.get_str());
-    const auto log = make_pair_log(system, Engine::unfolded);
+  TracedRandom random(160217);
+  for_each_system(random, 100, [&](const TwoBlocks& system, const PairLog& log) {
     const Rational begin = random.rational(0, 10, 1000);
     const Rational end = begin + random.rational(1, 20, 1000);
-    const PairExposure exposure = expose(*log, begin, end);
-    if (exposure.area_below) continue;
+    const PairExposure exposure = log.expose(begin, end);
+    if (exposure.area_below) return;
     const Travel range = exposure.blue_range;
     for (int j = 1; j < 5; ++j) {
       const double position = range.from + (range.to - range.from) * j / 5;
       EXPECT_NEAR(share_below(exposure, BlockName::blue, position),
                   to_double(share_below(system, begin, end, Rational(position))), 1e-13);
     }
-  }
+  });
 }
 
 TEST(HeavyRed, IsLeftAnInstantAfterTheTimeInItsLog) {
-  Random random(137035);
-  SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 20; ++i) {
-    const TwoBlocks system = random_heavy_system(random);
-    if (corner_of(system)) continue;
+  TracedRandom random(137035);
+  for_each_system(random, 20, [&](const TwoBlocks& system, const PairLog& log) {
     const Rational turn = turn_of(system).value();
-    const auto log = make_pair_log(system, Engine::unfolded);
     for (const Integer& index : {Integer(1), Integer(2), Integer(3), Integer(64), Integer(1000)}) {
-      if (index > log->last()) continue;
+      if (index > log.last()) continue;
       SCOPED_TRACE("collision " + index.get_str());
-      const Rational after = log->time_after(index);
-      const Rational time = to_rational(log->blocks_collision(index).time);
+      const Rational after = log.time_after(index);
+      const Rational time = to_rational(log.blocks_collision(index).time);
       // It is after the collision by up to 2^-100 of the time to the turn and of that which the
       // turn takes.
       const oracle::ExactEvent exact = oracle::high_precision_collision(system, index, 2500);
       EXPECT_GE(after, exact.time * (1 - Rational(1 / power(2, 500))));
       EXPECT_LE(abs(time - exact.time), time_bound(exact.time, turn));
-      EXPECT_EQ(log->blocks_at(after).count, index);
+      EXPECT_EQ(log.blocks_at(after).count, index);
     }
-  }
+  });
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -54,8 +54,7 @@ TEST(CollisionTime, TellsAGrazeFromAHit) {
 }
 
 TEST(CollisionTime, LeavesTheSurfacesTouching) {
-  Random random(7);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(7);
   int hits = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     Disc p = disc(0, 0, random.uniform(-1, 1), random.uniform(-1, 1));
@@ -72,8 +71,7 @@ TEST(CollisionTime, LeavesTheSurfacesTouching) {
 
 // The double's answer against the same formula with 50 digits, for discs that come from far away.
 TEST(CollisionTime, DoesNotCancel) {
-  Random random(8);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(8);
   using WideDisc = Particle<Wide, 2>;
   for (int trial = 0; trial < 500; ++trial) {
     const double far = std::pow(10.0, random.uniform(0, 6));
@@ -145,8 +143,7 @@ TEST(Collide, AWallReflectsAndStaysAsItIs) {
 
 /// Against the distance from a line, in any direction and on either side of the pair.
 TEST(Collide, AFlatWallTurnsTheVelocityAlongItsNormal) {
-  Random random(11);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(11);
   int hits = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const double angle = random.uniform(0, 6.28);

@@ -6,6 +6,7 @@
 #include "physics/exposure.hpp"
 #include "physics/inelastic_log.hpp"
 #include "support/inelastic_checks.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -14,14 +15,6 @@ TwoBlocks with_restitution(TwoBlocks system, const Rational& e) {
   system.blocks_restitution = e;
   system.wall_restitution = e;
   return system;
-}
-
-TEST(Restitution, RandomSystemsMoveAsStepByStep) {
-  Random random(20261123);
-  SCOPED_TRACE(random.trace());
-  for (std::int64_t i = 0; i < many(300) && !testing::Test::HasFailure(); ++i) {
-    expect_like_steps(random_inelastic_system(random), random, 40);
-  }
 }
 
 /// Collisions of the article's run with e = p/q, from velocities alone, as integers: each collision
@@ -124,8 +117,7 @@ void expect_like_elastic(const TwoBlocks& system, const PairLog& inelastic, doub
 }
 
 TEST(Restitution, OfOneIsTheClosedForm) {
-  Random random(7);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(7);
   for (std::int64_t i = 0; i < many(60) && !testing::Test::HasFailure(); ++i) {
     TwoBlocks system = random_inelastic_system(random);
     system.blocks_restitution = system.wall_restitution = 1;
@@ -277,7 +269,7 @@ TEST(Restitution, ImpactsAreSums) {
 
 /// Where blue is on average, from its position at many times.
 void expect_mean(const PairLog& log, const Rational& begin, const Rational& end, double tolerance) {
-  const PairExposure exposure = expose(log, begin, end);
+  const PairExposure exposure = log.expose(begin, end);
   double share = 0;
   double mean = 0;
   for (const UniformPiece& piece : exposure.pieces) {

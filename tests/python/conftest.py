@@ -3,12 +3,30 @@
 import os
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 
 TREE = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+
+def in_threads(work, places):
+    """Calls work(place) for all places, each in a thread of its own, until all have ended."""
+    threads = [threading.Thread(target=work, args=(place,)) for place in places]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def resident_bytes():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+
+def bytes_of(file):
+    return Path(file).read_bytes()
 
 
 @pytest.fixture(autouse=True)

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from conftest import TREE
+from conftest import TREE, bytes_of
 
 import piblocks
 from piblocks import Scene
@@ -58,6 +58,12 @@ def said_by(program, *arguments):
     return result.stderr.decode().strip().removeprefix("piblocks: ")
 
 
+def assert_refused(ask, words):
+    with pytest.raises(piblocks.UsageError) as raised:
+        ask()
+    assert str(raised.value) == _as_keywords(words)
+
+
 def test_counts_are_those_of_the_program(program):
     for to in (1, 4, 40):
         scene = scene_of(BLOCKS, time_to=to)
@@ -83,9 +89,7 @@ def test_counts_and_indices_of_any_size():
 
 def test_a_count_without_an_end_is_refused(program):
     scene = scene_of(BLOCKS.replace("to = 4", ""))
-    with pytest.raises(piblocks.UsageError) as raised:
-        scene.count
-    assert str(raised.value) == _as_keywords(said_by(program, "count", "scene.toml"))
+    assert_refused(lambda: scene.count, said_by(program, "count", "scene.toml"))
 
 
 def npy_of(program, *arguments):
@@ -203,9 +207,7 @@ def test_refusals_of_logs_and_states(program):
     with pytest.raises(piblocks.UsageError):
         scene.state(-1)
     endless = scene_of(BLOCKS.replace("to = 4", ""))
-    with pytest.raises(piblocks.UsageError) as raised:
-        endless.log()
-    assert str(raised.value) == _as_keywords(said_by(program, "log", "scene.toml"))
+    assert_refused(endless.log, said_by(program, "log", "scene.toml"))
     assert len(endless.log(to=4)) == scene.count
     uncertain = scene_of(UNCERTAIN)
     for ask in (uncertain.log, lambda: uncertain.state([1, 150])):
@@ -222,10 +224,8 @@ def test_what_is_not_certain_is_refused_in_the_same_words(program):
     words = said_by(program, "count", "scene.toml")
     assert "is certain only until time " in words and "--allow-uncertain" in words
     for ask in (lambda: scene.count, lambda: scene.frame(150), lambda: scene.render("a.mp4")):
-        with pytest.raises(piblocks.UsageError) as raised:
-            ask()
-        assert str(raised.value) == _as_keywords(words)
-        assert "time_allow_uncertain=True" in str(raised.value)
+        assert_refused(ask, words)
+    assert "time_allow_uncertain=True" in _as_keywords(words)
     allowed = scene.replace(time_allow_uncertain=True)
     assert allowed.count == int(program("count", "scene.toml", "--allow-uncertain"))
 
@@ -246,8 +246,7 @@ def test_frames_are_those_of_the_program(program):
     assert first.shape == (72, 128, 3) and (first != last).any()
     program("still", "scene.toml", "--at", "2", "-o", "program.png")
     scene.still("package.png", 2)
-    with open("program.png", "rb") as one, open("package.png", "rb") as other:
-        assert one.read() == other.read()
+    assert bytes_of("program.png") == bytes_of("package.png")
     assert (scene.frame(2) == frames[10]).all()  # at 5 frames a second
     assert (frames[0] == first).all()
 
@@ -268,14 +267,12 @@ def test_videos_have_the_bytes_of_the_program(program):
     scene = scene_of(BLOCKS, sound_on=True)
     scene.render("package.mp4")
     program("render", "scene.toml", "--sound", "--quiet", "-o", "program.mp4")
-    with open("program.mp4", "rb") as one, open("package.mp4", "rb") as other:
-        assert one.read() == other.read()
+    assert bytes_of("program.mp4") == bytes_of("package.mp4")
 
 
 def test_pages_say_what_moves():
     scene_of(BLOCKS).render("page.html")
-    with open("page.html", encoding="utf-8") as page:
-        assert "without friction" in page.read()
+    assert b"without friction" in bytes_of("page.html")
 
 
 def test_scenes_differ_by_their_bodies():

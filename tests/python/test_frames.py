@@ -2,21 +2,16 @@
 
 import collections.abc
 import gc
-import threading
 import weakref
 
 import numpy as np
 import pytest
+from conftest import in_threads, resident_bytes
 
 import piblocks
 from piblocks import Scene
 
 SCENE = Scene(2, view_size="128x72", view_fps=10)
-
-
-def resident_bytes():
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * 4096
 
 
 def address(frame):
@@ -144,11 +139,7 @@ def test_threads_may_share_frames():
             if not (frames[number] == expected[number]).all():
                 wrong.append(number)
 
-    threads = [threading.Thread(target=look, args=(seed,)) for seed in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    in_threads(look, range(4))
     assert wrong == []
 
 

@@ -31,13 +31,16 @@ def test_plain():
 '''
 
 
+def pytest_with_plugin(*arguments, folder="."):
+    return subprocess.run(
+        [sys.executable, "-m", "pytest", "-p", "piblocks.pytest_plugin", "-p", "no:cacheprovider",
+         *arguments], capture_output=True, text=True, cwd=folder)
+
+
 def pytest_run(*options, ratio=16, text=TEST):
     with open("test_scenes.py", "w") as file:
         file.write(text.replace("RATIO", str(ratio)))
-    return subprocess.run(
-        [sys.executable, "-m", "pytest", "-p", "piblocks.pytest_plugin", "-p", "no:cacheprovider",
-         "-W", "error", "test_scenes.py", *options],
-        capture_output=True, text=True)
+    return pytest_with_plugin("-W", "error", "test_scenes.py", *options)
 
 
 def test_a_life_of_references(program):
@@ -137,9 +140,7 @@ def test_every_test_has_references_of_its_own():
                 "ROOT", os.getcwd()))
 
     def run(folder, *arguments):
-        result = subprocess.run(
-            [sys.executable, "-m", "pytest", "-p", "piblocks.pytest_plugin", "-p", "no:cacheprovider",
-             "--import-mode=importlib", *arguments], capture_output=True, text=True, cwd=folder)
+        result = pytest_with_plugin("--import-mode=importlib", *arguments, folder=folder)
         assert result.returncode == 0, result.stdout
         return len([file for file in os.listdir("golden") if file.endswith(".framehash")])
 

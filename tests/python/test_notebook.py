@@ -7,13 +7,14 @@ import importlib.util
 import re
 
 import pytest
-from conftest import TREE
+from conftest import TREE, bytes_of
 
 import piblocks
 from piblocks import Scene
 
 NOTEBOOK = TREE / "assets/notebooks/pi-from-blocks.ipynb"
 SMALL = Scene(1, view_size="128x72", view_fps=5)
+NO_WIDGETS = "there is no ipywidgets (python3-ipywidgets)"
 
 
 def test_a_scene_shows_the_page():
@@ -55,7 +56,7 @@ def test_what_was_rendered_is_shown():
         rendered = SMALL.render(name)
         assert rendered._repr_html_().startswith(start)
     data = re.search(r"base64,([^\"]*)", SMALL.render("a.mp4")._repr_html_())[1]
-    assert base64.b64decode(data) == open("a.mp4", "rb").read()
+    assert base64.b64decode(data) == bytes_of("a.mp4")
     assert SMALL.render("a.framehash")._repr_html_() is None
     assert SMALL.render("null")._repr_html_() is None
 
@@ -79,8 +80,7 @@ def test_a_large_film_is_embedded_when_it_is_asked_for(monkeypatch):
 
 
 def test_a_slider_over_exact_frames():
-    ipywidgets = pytest.importorskip(
-        "ipywidgets", reason="there is no ipywidgets (python3-ipywidgets)")
+    ipywidgets = pytest.importorskip("ipywidgets", reason=NO_WIDGETS)
     from piblocks._notebook import widget
 
     image, controls = widget(SMALL, ipywidgets).children
@@ -94,8 +94,7 @@ def test_a_slider_over_exact_frames():
 
 @pytest.mark.parametrize("version, is_widget", [("6.0.0", False), ("8.1.5", True)])
 def test_old_widgets_are_not_used(monkeypatch, version, is_widget):
-    ipywidgets = pytest.importorskip(
-        "ipywidgets", reason="there is no ipywidgets (python3-ipywidgets)")
+    ipywidgets = pytest.importorskip("ipywidgets", reason=NO_WIDGETS)
     monkeypatch.setattr(ipywidgets, "__version__", version)
     shown = SMALL.animate()
     assert isinstance(shown, piblocks.Player) == (not is_widget)

@@ -2,13 +2,13 @@
 
 import math
 import re
-import threading
 from dataclasses import astuple, fields
 from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from conftest import in_threads
 
 import piblocks
 from piblocks import Scene, State
@@ -169,10 +169,6 @@ def test_threads_may_share_a_scene():
     def ask(place):
         results[place] = Scene(5).state(np.linspace(0, 12, 500)), scene.log(limit=1000)
 
-    threads = [threading.Thread(target=ask, args=(i,)) for i in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    in_threads(ask, range(8))
     for states, log in results:
         assert (states == expected).all() and len(log) == 1000

@@ -8,6 +8,7 @@ import threading
 import time
 
 import pytest
+from conftest import bytes_of, in_threads, resident_bytes
 
 import piblocks
 from piblocks import Scene
@@ -124,12 +125,8 @@ def test_other_threads_run_meanwhile():
 
 def test_threads_render_side_by_side():
     files = [f"{i}.mp4" for i in range(4)]
-    threads = [threading.Thread(target=SMALL.render, args=(file,)) for file in files]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len({open(file, "rb").read() for file in files}) == 1
+    in_threads(SMALL.render, files)
+    assert len(set(map(bytes_of, files))) == 1
 
 
 def test_an_interrupted_rendering_in_a_thread_is_its_own():
@@ -144,10 +141,6 @@ def test_an_interrupted_rendering_in_a_thread_is_its_own():
 
 
 def test_memory_does_not_grow_with_renderings():
-    def resident_bytes():
-        with open("/proc/self/statm") as file:
-            return int(file.read().split()[1]) * 4096
-
     tiny = Scene(1, view_size="64x36", view_fps=5)
     for _ in range(100):
         tiny.render("a.mp4")

@@ -4,22 +4,17 @@
 #include <piblocks/render.hpp>
 #include <piblocks/system.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <initializer_list>
-#include <numeric>
 #include <optional>
 #include <stop_token>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "draw/canvas.hpp"
-#include "draw/composition.hpp"
+#include "draw/found_items.hpp"
 #include "mean_light.hpp"
 #include "render/film.hpp"
-#include "scene/schedule.hpp"
+#include "support/random_discs.hpp"
 
 namespace piblocks {
 namespace {
@@ -40,66 +35,16 @@ Scene scene_of(System system, const Rational& end) {
 }
 
 System box(std::vector<Body> bodies, int dimensions) {
-  System system{dimensions, std::move(bodies), {}};
-  system.walls.push_back({"left", {0, 0}, {1, 0}});
-  system.walls.push_back({"right", {8, 0}, {-1, 0}});
-  if (dimensions == 2) {
-    system.walls.push_back({"lower", {0, 0}, {0, 1}});
-    system.walls.push_back({"upper", {0, 4}, {0, -1}});
-  }
-  return system;
+  std::vector<Wall> walls = piblocks::box(8, 4);
+  walls.resize(2 * static_cast<std::size_t>(dimensions));
+  return {dimensions, std::move(bodies), std::move(walls)};
 }
 
-/// Without alpha. Plain pointers: sanitizers look at each of thousands of pictures, too.
-std::vector<int> samples_of(const ImageView& picture) {
-  std::vector<int> samples(3 * static_cast<std::size_t>(picture.width_px * picture.height_px));
-  int* to = samples.data();
-  for (int y = 0; y < picture.height_px; ++y) {
-    const std::uint8_t* pixel = picture.row(y);
-    for (int x = 0; x < picture.width_px; ++x, pixel += 4) to = std::copy_n(pixel, 3, to);
-  }
-  return samples;
-}
-
-/// The mean of the pictures of instants at which a frame's shutter is open.
-std::vector<double> mean_of_instants(const Scene& open, std::int64_t frame) {
-  constexpr int kInstants = 1000;
-  Scene scene = open;
-  scene.view.shutter = 0;
-  const auto log = make_log(scene.system, Rational(scene.time.to.offset));
-  const Schedule schedule = make_schedule(scene, *log);
-  const Composition composition(scene, *log);
-  const Integer count = log->count_at(schedule.time_of(frame));
-  Canvas canvas(scene.view.width_px, scene.view.height_px);
-  MeanLight mean;
-  for (int i = 0; i < kInstants; ++i) {
-    const Rational time = schedule.time_of(frame) + open.view.shutter *
-                                                        Rational(2 * i + 1, 2 * kInstants) /
-                                                        open.view.frame_rate;
-    FrameState shown{.state = log->state_at(time), .time = time};
-    shown.state.count = count;
-    canvas.update(composition.frame(shown));
-    mean.add(samples_of(canvas.view()));
-  }
-  return mean.samples();
-}
-
-struct Difference {
-  double worst = 0;  ///< steps of 255
-  double mean = 0;
-};
-
-Difference difference_of(const Scene& scene, std::int64_t frame) {
+LightDifference difference_of(const Scene& scene, std::int64_t frame) {
+  const auto samples = [](const ImageView& picture) { return samples_of(picture); };
   FrameRenderer renderer(scene);
-  const std::vector<int> samples = samples_of(renderer.frame(frame));
-  const std::vector<double> wanted = mean_of_instants(scene, frame);
-  Difference difference;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double apart = std::fabs(samples[i] - wanted[i]);
-    difference.worst = std::max(difference.worst, apart);
-    difference.mean += apart / double(samples.size());
-  }
-  return difference;
+  return piblocks::difference_of(samples(renderer.frame(frame)),
+                                 mean_of_instants(scene, frame, samples));
 }
 
 TEST(BodyShutter, FramesOfBlocksAreMeansOfInstants) {
@@ -181,14 +126,8 @@ double worst_difference(const MovingRow& row) {
     canvas.update({160, 40, background, row.at((i + 0.5) / kInstants)});
     mean.add(samples_of(canvas.view()));
   }
-  const std::vector<double> wanted = mean.samples();
   canvas.paint({160, 40, background, {row.item()}});
-  const std::vector<int> samples = samples_of(canvas.view());
-  double worst = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    worst = std::max(worst, std::fabs(samples[i] - wanted[i]));
-  }
-  return worst;
+  return piblocks::difference_of(samples_of(canvas.view()), mean.samples()).worst;
 }
 
 /// Up to six blocks are in one pixel at the same time.
@@ -232,10 +171,8 @@ TEST(BodyShutter, BlocksTakeNoMoreMemoryTheFasterTheyAre) {
   }
   const Film film(scene_of({1, std::move(bodies), {}}, 1));
   std::size_t parts = 0;
-  for (const DrawItem& item : film.frame(0).items) {
-    const auto* const exposed = std::get_if<MovingShapesItem>(&item);
-    if (exposed == nullptr) continue;
-    for (const MovingShape& shape : exposed->shapes) parts += shape.places.view().size();
+  for (const auto& exposed : items_of<MovingShapesItem>(film.frame(0).items)) {
+    for (const MovingShape& shape : exposed.shapes) parts += shape.places.view().size();
   }
   EXPECT_GT(parts, 0U);
   EXPECT_LE(parts, std::size_t{1} << 22);
@@ -255,11 +192,7 @@ TEST(BodyShutter, AnExposureStopsAtTheEndOfTheFilm) {
   scene.time = {.from = Rational(999'999, 1'000'000), .to = Rational(1)};
   FrameRenderer end(scene);
   const std::vector<int> still = samples_of(end.frame(0));
-  int worst = 0;
-  for (std::size_t i = 0; i < still.size(); ++i) {
-    worst = std::max(worst, std::abs(still[i] - exposed[i]));
-  }
-  EXPECT_LE(worst, 2);
+  EXPECT_LE(piblocks::difference_of(exposed, {still.begin(), still.end()}).worst, 2);
 }
 
 /// Two blocks and a wall by other names, in both directions and orders: thousands of collisions a
@@ -294,7 +227,7 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
                    2),
                2);
   for (const std::int64_t frame : {0, 1, 2, 3, 5, 9, 14}) {
-    const Difference difference = difference_of(scene, frame);
+    const LightDifference difference = difference_of(scene, frame);
     // At an instant Cairo paints small discs at multiples of 1/8 pixel.
     EXPECT_LE(difference.worst, 20) << frame;
     EXPECT_LE(difference.mean, 0.1) << frame;
@@ -307,24 +240,20 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
   }
 }
 
+/// Of the items in the picture of the bodies.
+template <typename Item>
+std::size_t count_of(const DrawList& frame) {
+  return items_of<Item>(std::get<GroupItem>(frame.items.front()).list->items).size();
+}
+
 TEST(BodyShutter, DiscsThatStayAreDiscItems) {
   Scene scene = scene_of(box({{.position = {1, 1}, .velocity = {1, 0}, .size = Rational(1, 4)},
                               {.position = {4, 3}, .size = Rational(1, 4)}},
                              2),
                          2);
   const Film film(scene);
-  for (const DrawItem& item : film.frame(3).items) {
-    const auto* const group = std::get_if<GroupItem>(&item);
-    if (group == nullptr) continue;
-    const auto count = [&](const auto& is_kind) {
-      return std::ranges::count_if(group->list->items, is_kind);
-    };
-    EXPECT_EQ(count([](const DrawItem& part) { return std::holds_alternative<DiscItem>(part); }),
-              1);
-    EXPECT_EQ(
-        count([](const DrawItem& part) { return std::holds_alternative<MovingShapesItem>(part); }),
-        1);
-  }
+  EXPECT_EQ(count_of<DiscItem>(film.frame(3)), 1U);
+  EXPECT_EQ(count_of<MovingShapesItem>(film.frame(3)), 1U);
 }
 
 /// Each pixel between them has a part of two or three discs all the time.
@@ -341,7 +270,7 @@ TEST(BodyShutter, FramesOfTouchingDiscsAreMeansOfInstants) {
   Scene scene = scene_of({2, std::move(bodies), {}}, 2);
   scene.time.allow_uncertain = true;  // they touch from the beginning
   for (const std::int64_t frame : {0, 3}) {
-    const Difference difference = difference_of(scene, frame);
+    const LightDifference difference = difference_of(scene, frame);
     EXPECT_LE(difference.worst, 24) << frame;
     EXPECT_LE(difference.mean, 0.1) << frame;
   }
@@ -360,7 +289,7 @@ TEST(BodyShutter, FramesOfTinyDiscsAreMeansOfInstants) {
       }
     }
     const Scene scene = scene_of({2, std::move(bodies), {}}, 2);
-    const Difference difference = difference_of(scene, 1);
+    const LightDifference difference = difference_of(scene, 1);
     EXPECT_LE(difference.worst, 16) << radius;
     EXPECT_LE(difference.mean, 0.1) << radius;
   }
@@ -375,13 +304,7 @@ TEST(BodyShutter, DiscsThatMoveByLessThanCanBeSeenAreDiscs) {
                    2),
                2);
   const Film film(scene);
-  std::size_t discs = 0;
-  for (const DrawItem& item : film.frame(3).items) {
-    const auto* const group = std::get_if<GroupItem>(&item);
-    if (group == nullptr) continue;
-    for (const DrawItem& part : group->list->items) discs += std::holds_alternative<DiscItem>(part);
-  }
-  EXPECT_EQ(discs, 1U);
+  EXPECT_EQ(count_of<DiscItem>(film.frame(3)), 1U);
 }
 
 /// Light is neither lost nor made: far from its edges a disc's mean is its time there.
@@ -418,14 +341,12 @@ TEST(BodyShutter, NoFrameCostsMoreThanItsLimit) {
     scene.time.allow_uncertain = true;
     const DrawList frame = Film(scene).frame(0);
     const auto& group = std::get<GroupItem>(frame.items.front());
-    const DrawItem& item = group.list->items.back();
-    const auto* const moving = std::get_if<MovingShapesItem>(&item);
-    ASSERT_NE(moving, nullptr);
+    const auto& moving = std::get<MovingShapesItem>(group.list->items.back());
     double edges_px = 0;
-    for (const MovingShape& shape : moving->shapes) {
+    for (const MovingShape& shape : moving.shapes) {
       edges_px += 6.28 * std::get<DiscItem>(shape.shape).radius;
     }
-    const auto moments = moving->shapes.front().places.view().size();
+    const auto moments = moving.shapes.front().places.view().size();
     EXPECT_LE(edges_px * double(moments), 1e8) << count;
     EXPECT_LE(moments, 2U * 4096U) << count;
     EXPECT_GE(moments, 16U) << count;

@@ -8,33 +8,26 @@
 #include <map>
 #include <regex>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <vector>
 
+#include "draw/found_items.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"
 #include "scene/schedule.hpp"
-#include "support/property.hpp"
+#include "support/contains.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
+using testing_support::contains;
 
 /// What the counter of a picture says, without its separators.
 std::string count_of(const DrawList& list) {
-  for (const DrawItem& item : list.items) {
-    const auto* text = std::get_if<TextItem>(&item);
-    if (text == nullptr || text->id != ItemId::count) continue;
-    std::string count = text->text;
-    std::erase(count, ',');
-    return count;
-  }
-  return "no counter";
+  std::string count = item_of<TextItem>(list, ItemId::count).text;
+  std::erase(count, ',');
+  return count;
 }
 
 Scene scene_of(const TwoBlocks& system) {
@@ -73,13 +66,18 @@ std::string last_count(const Scene& scene) {
   return count_of(film.frame(film.frame_count() - 1));
 }
 
+/// A scene from time 0 to an instant, in four seconds.
+Scene until(const Instant& instant, Scene scene) {
+  scene.time.from = Rational(0);
+  scene.time.to = instant;
+  scene.pacing.duration_s = 4;
+  return scene;
+}
+
 /// Films that end at the anchor, stand still at it, begin with it or play back from it.
 void expect_in_films(const Scene& scene, const Anchored& at) {
   const std::string count = at.count.get_str();
-  Scene film = scene;
-  film.time.from = Rational(0);
-  film.time.to = at.instant;
-  film.pacing.duration_s = 4;
+  Scene film = until(at.instant, scene);
   EXPECT_EQ(last_count(film), count) << "end, fitted to a duration";
   film.pacing.hold_end_s = 1;
   EXPECT_EQ(last_count(film), count) << "held end";
@@ -101,9 +99,7 @@ void expect_in_films(const Scene& scene, const Anchored& at) {
   later.time.speed = 20;
   EXPECT_EQ(count_of(Film(later).frame(0)), count) << "begin";
 
-  Scene looped = scene;
-  looped.time.from = Rational(0);
-  looped.time.to = at.instant;
+  Scene looped = until(at.instant, scene);
   looped.pacing.duration_s = 5;
   looped.pacing.loop = true;
   const Film loop(looped);
@@ -111,17 +107,13 @@ void expect_in_films(const Scene& scene, const Anchored& at) {
 }
 
 void expect_in_texts(const Scene& scene, const Anchored& at) {
-  Scene film = scene;
-  film.time.from = Rational(0);
-  film.time.to = at.instant;
-  film.pacing.duration_s = 4;
+  const Scene film = until(at.instant, scene);
   const auto log = log_of(film);
   const Schedule schedule = make_schedule(film, *log);
   EXPECT_EQ(video_count(film, *log, schedule).at_end, at.count) << "alt text";
   std::string text = captions(film, *log, schedule);
   std::erase(text, ',');
-  const std::string last = "\n" + at.count.get_str() + " collision";
-  EXPECT_NE(text.find(last), std::string::npos) << "captions: " << text;
+  EXPECT_TRUE(contains(text, "\n" + at.count.get_str() + " collision")) << "captions";
 }
 
 void expect_everywhere(const TwoBlocks& system) {
@@ -139,8 +131,7 @@ void expect_everywhere(const TwoBlocks& system) {
 }
 
 TEST(CountsShown, AreRightForAnyMassRatio) {
-  Random random(2718);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(2718);
   for (int i = 0; i < 200; ++i) {
     expect_everywhere(system_of_ratio(random.rational(1, 2'000'000, 1000) / 4 + 1));
     if (HasFailure()) return;
@@ -181,7 +172,7 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
   film.time.to = Rational(1);
   const auto log = make_pair_log(system);
   const std::string text = captions(film, *log, make_schedule(film, *log));
-  EXPECT_NE(text.find("100 collisions or more to go until time 0"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "100 collisions or more to go until time 0"));
   // Count 0 is reached before time 0, and kept after it.
   EXPECT_TRUE(text.ends_with("\nNo collision between now and time 0\n")) << text;
 }
@@ -249,8 +240,7 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
 
 /// "100 or more" would mislead beside a picture that says 313 for seconds.
 TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
-  Random random(313);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(313);
   int stood = 0;
   for (int i = 0; i < 60; ++i) {
     Scene scene = scene_of(system_of_ratio(random.rational(1, 20'000, 10) + 1));
@@ -300,10 +290,10 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     const Integer before = log->last() - 1;
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
     const std::string text = describe_video(scene, *log, {log->last(), log->last(), true});
-    EXPECT_EQ(text.find("elastic"), std::string::npos) << text;
-    EXPECT_TRUE(contains(text, "The coefficient of restitution is 0.5 between the blocks")) << text;
-    EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both")) << text;
-    EXPECT_TRUE(contains(title_of(scene, *log, {7, log->last(), true}), "infinitely many")) << text;
+    EXPECT_FALSE(contains(text, "elastic"));
+    EXPECT_TRUE(contains(text, "The coefficient of restitution is 0.5 between the blocks"));
+    EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both"));
+    EXPECT_TRUE(contains(title_of(scene, *log, {7, log->last(), true}), "infinitely many"));
     scene.show.base = 2;
     EXPECT_FALSE(contains(describe_video(scene, *log, {log->last(), log->last(), true}), "base"));
     scene.show.base = 10;

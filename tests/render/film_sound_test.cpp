@@ -1,14 +1,13 @@
 // What films of several parts sound like: each run in its time and place, and nothing else.
 #include <gtest/gtest.h>
 #include <piblocks/render.hpp>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "render/film.hpp"
-#include "support/decode_video.hpp"
+#include "rendered_parts.hpp"
+#include "support/script_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
@@ -30,34 +29,25 @@ bool is_silent(const std::vector<double>& channel, std::size_t from, std::size_t
                      [](double sample) { return sample == 0; });
 }
 
-class FilmSoundTest : public testing::Test {
- protected:
-  Script read(const std::string& text) const {
-    const std::string path = folder_ / "story.toml";
-    std::ofstream(path) << "view.size = '160x90'\n" << text;
-    ScriptBuilder builder;
-    builder.read_file(path);
-    return builder.build();
-  }
+Script read(const std::string& text) {
+  return testing_support::script_of("view.size = '160x90'\n" + text);
+}
 
-  Track track(const std::string& text) const {
-    const Film film(read(text));
-    FilmSound sound(film, {}, [](std::int64_t) {});
-    Track track;
-    std::vector<float> samples(2000);
-    while (const std::size_t count = sound.read(samples)) {
-      for (std::size_t i = 0; i < count; ++i) {
-        track.left.push_back(double(samples[2 * i]));
-        track.right.push_back(double(samples[2 * i + 1]));
-      }
+Track track(const std::string& text) {
+  const Film film(read(text));
+  FilmSound sound(film, {}, [](std::int64_t) {});
+  Track track;
+  std::vector<float> samples(2000);
+  while (const std::size_t count = sound.read(samples)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      track.left.push_back(double(samples[2 * i]));
+      track.right.push_back(double(samples[2 * i + 1]));
     }
-    EXPECT_EQ(std::int64_t(track.size()),
-              sound_format(film.frame_count(), film.view().frame_rate).size);
-    return track;
   }
-
-  TemporaryFolder folder_;
-};
+  EXPECT_EQ(std::int64_t(track.size()),
+            sound_format(film.frame_count(), film.view().frame_rate).size);
+  return track;
+}
 
 /// The first sample after `from` that is higher than half of the highest within two milliseconds.
 std::size_t onset(const std::vector<double>& samples, std::size_t from) {
@@ -70,7 +60,7 @@ std::size_t onset(const std::vector<double>& samples, std::size_t from) {
 }
 
 /// Frame rates at which parts begin at a sample, and between two of them.
-TEST_F(FilmSoundTest, EachPartIsHeardAtItsTime) {
+TEST(FilmSoundTest, EachPartIsHeardAtItsTime) {
   for (const std::string rate : {"10", "60", "'30000/1001'"}) {
     const std::string text = "view.fps = " + rate + R"(
 [[part]]
@@ -109,18 +99,19 @@ mass-ratio = 3
   }
 }
 
-TEST_F(FilmSoundTest, AFilmOfOnePartIsTheScene) {
+TEST(FilmSoundTest, AFilmOfOnePartIsTheScene) {
+  const TemporaryFolder folder;
   const std::string keys = "digits = 3\ntime.speed = 2\nview.shutter = 1\n";
   for (const std::string name : {"a.wav", "a.mp4", "a.webm"}) {
     const std::string head = "view.fps = 10\nsound.on = true\n";
-    render({read(head + keys), folder_ / name, {}, 1}, [](const Progress&) {});
-    const std::string story = folder_ / ("story-" + name);
-    render({read(head + "[[part]]\n" + keys), story, {}, 1}, [](const Progress&) {});
-    EXPECT_EQ(file_contents(folder_ / name) == file_contents(story), true) << name;
+    render_silently({read(head + keys), folder / name, {}, 1});
+    const std::string story = folder / ("story-" + name);
+    render_silently({read(head + "[[part]]\n" + keys), story, {}, 1});
+    EXPECT_EQ(file_contents(folder / name) == file_contents(story), true) << name;
   }
 }
 
-TEST_F(FilmSoundTest, AFadeWeighsSoundsAsItDoesPictures) {
+TEST(FilmSoundTest, AFadeWeighsSoundsAsItDoesPictures) {
   constexpr const char* kFirst = "mass-ratio = 2\ntime.from = 1.5\ntime.to = 5\n";
   constexpr const char* kSecond = "digits = 1\ntime.from = 1.8\ntime.to = 7\n";
   const std::string fps = "view.fps = 10\n";
@@ -154,7 +145,7 @@ TEST_F(FilmSoundTest, AFadeWeighsSoundsAsItDoesPictures) {
   EXPECT_GT(loudest, 0.01) << "nothing is heard in the fade";
 }
 
-TEST_F(FilmSoundTest, WhatRingsAtACutIsFadedOut) {
+TEST(FilmSoundTest, WhatRingsAtACutIsFadedOut) {
   // The second collision is 3 ms before the cut.
   const Track alone = track("view.fps = 10\ndigits = 1\ntime.to = 5");
   const Track cut = track(
@@ -171,7 +162,7 @@ TEST_F(FilmSoundTest, WhatRingsAtACutIsFadedOut) {
   EXPECT_TRUE(is_silent(cut.left, end, cut.size()));
 }
 
-TEST_F(FilmSoundTest, AllThatIsComparedIsHeardEachFromItsSide) {
+TEST(FilmSoundTest, AllThatIsComparedIsHeardEachFromItsSide) {
   const std::string fps = "view.fps = 10\n";
   const std::string story =
       fps +
@@ -190,31 +181,18 @@ TEST_F(FilmSoundTest, AllThatIsComparedIsHeardEachFromItsSide) {
   EXPECT_GT(energy(both.left, 2.499), 0);
 }
 
-TEST_F(FilmSoundTest, CardsAloneAreSilent) {
+TEST(FilmSoundTest, CardsAloneAreSilent) {
   const Track heard = track("[[part]]\ncard = 'a'\n[[part]]\ncard = 'b'\nfade = 1\n");
   EXPECT_EQ(heard.size(), 3U * kRate_hz);
   EXPECT_TRUE(is_silent(heard.left, 0, heard.size()));
 }
 
-TEST_F(FilmSoundTest, BytesDoNotDependOnJobsNorOnParts) {
+TEST(FilmSoundTest, BytesDoNotDependOnJobsNorOnParts) {
   const Script script = read(
       "view.fps = 10\nsound.on = true\n[[part]]\ncard = 'a'\n[[part]]\nfade = 0.5\ndigits = 2\n"
       "time.duration = 3\n[[part]]\nfade = 0.5\ntime.duration = 4\ncompare = [{}, { digits = 1 "
       "}]\n");
-  const std::string whole = folder_ / "out.mp4";
-  render({script, whole, {}, 1}, [](const Progress&) {});
-  const std::string other = folder_ / "two.mp4";
-  render({script, other, {}, 2}, [](const Progress&) {});
-  EXPECT_EQ(file_contents(whole) == file_contents(other), true);
-  std::vector<std::string> parts;
-  RenderJob job{script, folder_ / "part.mp4"};
-  for (int i = 1; i <= 3; ++i) {
-    job.shard = Shard{i, 3};
-    render(job, [](const Progress&) {});
-    parts.push_back(shard_name(job.output, *job.shard));
-  }
-  join(parts, folder_ / "joined.mp4");
-  EXPECT_EQ(file_contents(whole) == file_contents(folder_ / "joined.mp4"), true);
+  expect_equal_bytes(script, TemporaryFolder(), "out.mp4");
 }
 
 }  // namespace

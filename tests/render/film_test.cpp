@@ -5,51 +5,31 @@
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
-#include <cstring>
-#include <fstream>
 
 #include "draw/canvas.hpp"
+#include "draw/found_items.hpp"
 #include "render/renderings.hpp"
-#include "support/decode_video.hpp"
+#include "rendered_parts.hpp"
+#include "support/contains.hpp"
+#include "support/script_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
+using testing_support::contains;
 using testing_support::file_contents;
 using testing_support::TemporaryFolder;
 
-using Words = std::vector<std::uint32_t>;
-
-Words words_of(const ImageView& image) {
-  Words words(static_cast<std::size_t>(image.width_px * image.height_px));
-  for (int y = 0; y < image.height_px; ++y) {
-    std::memcpy(words.data() + y * image.width_px, image.row(y),
-                std::size_t{4} * static_cast<std::size_t>(image.width_px));
-  }
-  return words;
-}
-
-Words painted(const DrawList& list) {
-  Canvas canvas(list.width_px, list.height_px);
-  canvas.paint(list);
-  return words_of(canvas.view());
-}
-
 class FilmTest : public testing::Test {
  protected:
-  Script read(const std::string& text) const {
-    const std::string path = folder_ / "story.toml";
-    std::ofstream(path) << "view.size = '160x90'\nview.fps = 10\n" << text;
-    ScriptBuilder builder;
-    builder.read_file(path);
-    return builder.build();
+  static Script read(const std::string& text) {
+    return testing_support::script_of("view.size = '160x90'\nview.fps = 10\n" + text);
   }
-  Film film(const std::string& text) const { return Film(read(text)); }
+  static Film film(const std::string& text) { return Film(read(text)); }
 
-  std::vector<std::string> problems(const std::string& text) const {
+  static std::vector<std::string> problems(const std::string& text) {
     try {
       film(text);
     } catch (const UsageError& error) {
@@ -112,20 +92,15 @@ TEST_F(FilmTest, APartShowsWhatItsSceneWouldShowAlone) {
   for (std::int64_t k = 35; k < 48; ++k) EXPECT_EQ(made.frame(k), alone.frame(k - 35)) << k;
 }
 
-bool is_exposed(const DrawList& list) {
-  return std::ranges::any_of(list.items, [](const DrawItem& item) {
-    return std::holds_alternative<ExposedBlocksItem>(item);
-  });
-}
+bool is_exposed(const DrawList& list) { return !items_of<ExposedBlocksItem>(list.items).empty(); }
 
 TEST_F(FilmTest, EachRunHasItsOwnShutter) {
   const Film made = film(kStory);
   EXPECT_FALSE(is_exposed(made.frame(20)));
   EXPECT_TRUE(is_exposed(made.frame(40)));
   std::vector<bool> exposed;
-  for (const DrawItem& item : made.frame(60).items) {
-    const auto* group = std::get_if<GroupItem>(&item);
-    if (group != nullptr) exposed.push_back(is_exposed(*group->list));
+  for (const GroupItem& group : items_of<GroupItem>(made.frame(60).items)) {
+    exposed.push_back(is_exposed(*group.list));
   }
   EXPECT_EQ(exposed, (std::vector<bool>{false, true}));
 }
@@ -175,7 +150,6 @@ TEST_F(FilmTest, AFadeOfTwoFramesHasOneOfEachPart) {
   }
 }
 
-/// Slow motion that eases in and out has as many frames as its stretches are long.
 TEST_F(FilmTest, HasTheFramesOfItsStretches) {
   for (const char* ease : {"0", "0.31", "2"}) {
     const Film made = film("digits = 2\ntime.to = 6\ntime.slow-motion = ['2:2.1:9', 'turn:4:3']\n" +
@@ -204,16 +178,12 @@ TEST_F(FilmTest, WhatIsComparedHasOneClock) {
       std::max({length("digits = 1"), length("mass-ratio = 16"), length("digits = 3")});
   EXPECT_EQ(made.frame_count(), longest);
   for (const std::int64_t k : {std::int64_t{0}, longest / 2, longest - 1}) {
-    const DrawList list = made.frame(k);
-    std::size_t cell = 0;
-    for (const DrawItem& item : list.items) {
-      const auto* group = std::get_if<GroupItem>(&item);
-      if (group == nullptr) continue;
-      EXPECT_EQ(*group->list, runs[cell].frame(*placed.segment.schedule(), k))
-          << "frame " << k << ", cell " << cell;
-      ++cell;
+    const auto cells = items_of<GroupItem>(made.frame(k).items);
+    ASSERT_EQ(cells.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(*cells[i].list, runs[i].frame(*placed.segment.schedule(), k))
+          << "frame " << k << ", cell " << i;
     }
-    EXPECT_EQ(cell, 3U);
   }
 }
 
@@ -227,7 +197,7 @@ TEST_F(FilmTest, FadesHaveToFit) {
                                    std::string("fade = 0.95")}) {
     const auto found = problems(card + card + fades);
     ASSERT_EQ(found.size(), 1U) << fades;
-    EXPECT_NE(found.front().find("story.toml:6: fade = "), std::string::npos) << found.front();
+    EXPECT_TRUE(contains(found.front(), "scene.toml:6: fade = "));
   }
   EXPECT_EQ(problems(card + card + "fade = 0.6\n" + card + "fade = 0.5\n").size(), 1U)
       << "three parts at once";
@@ -240,9 +210,9 @@ TEST_F(FilmTest, ProblemsOfAllPartsAreToldAtOnce) {
                               "'\n[[part]]\nred.velocity = 0\n[[part]]\nview.x = [-1, 30]\n"
                               "[[part]]\ncard = 'a'\nseconds = 1e9\n");
   ASSERT_EQ(found.size(), 3U) << testing::PrintToString(found);
-  EXPECT_NE(found[0].find("story.toml:3: card: "), std::string::npos) << found[0];
-  EXPECT_NE(found[1].find("story.toml:5: time.to: "), std::string::npos) << found[1];
-  EXPECT_NE(found[2].find("story.toml:9: seconds = "), std::string::npos) << found[2];
+  EXPECT_TRUE(contains(found[0], "scene.toml:3: card: "));
+  EXPECT_TRUE(contains(found[1], "scene.toml:5: time.to: "));
+  EXPECT_TRUE(contains(found[2], "scene.toml:9: seconds = "));
 }
 
 TEST_F(FilmTest, RefusesAStoryboardThatWasNotChecked) {
@@ -271,23 +241,7 @@ TEST_F(FilmTest, EveryFrameIsThatOfAFullPaintInAnyOrder) {
 
 TEST_F(FilmTest, BytesDoNotDependOnJobsNorOnParts) {
   const Script script = read(kStory);
-  for (const std::string name : {"out.mp4", "out.framehash"}) {
-    const std::string whole = folder_ / name;
-    render({script, whole, {}, 1}, [](const Progress&) {});
-    const std::string other = folder_ / ("two-" + name);
-    render({script, other, {}, 2}, [](const Progress&) {});
-    EXPECT_EQ(file_contents(whole) == file_contents(other), true) << name;
-    std::vector<std::string> parts;
-    RenderJob job{script, folder_ / ("part-" + name)};
-    for (int i = 1; i <= 3; ++i) {
-      job.shard = Shard{i, 3};
-      render(job, [](const Progress&) {});
-      parts.push_back(shard_name(job.output, *job.shard));
-    }
-    const std::string joined = folder_ / ("joined-" + name);
-    EXPECT_EQ(join(parts, joined).frame_count, 78);
-    EXPECT_EQ(file_contents(whole) == file_contents(joined), true) << name;
-  }
+  for (const char* name : {"out.mp4", "out.framehash"}) expect_equal_bytes(script, folder_, name);
 }
 
 TEST_F(FilmTest, PartsOfOtherStoriesAreNotJoined) {
@@ -295,9 +249,7 @@ TEST_F(FilmTest, PartsOfOtherStoriesAreNotJoined) {
   changed.replace(changed.find("twice"), 5, "again");
   std::vector<std::string> parts;
   for (int i = 1; i <= 2; ++i) {
-    const RenderJob job{read(i == 1 ? kStory : changed), folder_ / "out.mp4", {}, 1, Shard{i, 2}};
-    render(job, [](const Progress&) {});
-    parts.push_back(shard_name(job.output, *job.shard));
+    parts.push_back(rendered_part({i, 2}, {read(i == 1 ? kStory : changed), folder_ / "out.mp4"}));
   }
   try {
     join(parts, folder_ / "joined.mp4");

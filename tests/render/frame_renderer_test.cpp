@@ -1,58 +1,36 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "draw/canvas.hpp"
-#include "draw/composition.hpp"
+#include "draw/composed_pictures.hpp"
 #include "scene/schedule.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Scene scene_of(const char* size) {
-  ScriptBuilder builder;
-  builder.set("test", "view.size", size);
-  builder.set("test", "view.fps", "20");
-  return builder.build_scene();
-}
-
-Bytes bytes_of(const ImageView& image) {
-  Bytes bytes;
-  for (int y = 0; y < image.height_px; ++y) {
-    bytes.insert(bytes.end(), image.row(y), image.row(y) + std::ptrdiff_t{4} * image.width_px);
-  }
-  return bytes;
-}
+Scene scene_of(const char* size) { return scene_with({{"view.size", size}, {"view.fps", "20"}}); }
 
 /// Frames painted whole, each on a canvas of its own.
 class FullPaint {
  public:
   explicit FullPaint(const Scene& scene)
-      : scene_(scene),
-        log_(make_pair_log(scene.system)),
-        schedule_(make_schedule(scene, *log_)),
-        composition_(scene, *log_) {}
+      : pictures_(scene), schedule_(make_schedule(scene, *pictures_.log)) {}
 
   std::int64_t frame_count() const { return film_frames(schedule_); }
-  Bytes frame(std::int64_t number) const {
-    Canvas canvas(scene_.view.width_px, scene_.view.height_px);
-    canvas.paint(composition_.frame({log_->state_at(schedule_.time_of(number))}));
-    return bytes_of(canvas.view());
+  std::vector<std::uint32_t> frame(std::int64_t number) const {
+    return painted(pictures_.at(schedule_.time_of(number)));
   }
 
  private:
-  Scene scene_;
-  std::unique_ptr<PairLog> log_;
+  Pictures pictures_;
   Schedule schedule_;
-  Composition composition_;
 };
 
 TEST(FrameRenderer, EveryFrameIsThatOfAFullPaint) {
@@ -62,7 +40,7 @@ TEST(FrameRenderer, EveryFrameIsThatOfAFullPaint) {
   ASSERT_EQ(renderer.frame_count(), expected.frame_count());
   ASSERT_GT(renderer.frame_count(), 100);
   for (std::int64_t k = 0; k < renderer.frame_count(); ++k) {
-    ASSERT_TRUE(bytes_of(renderer.frame(k)) == expected.frame(k)) << k;
+    ASSERT_TRUE(words_of(renderer.frame(k)) == expected.frame(k)) << k;
   }
 }
 
@@ -70,25 +48,24 @@ TEST(FrameRenderer, AnyOrderGivesTheSameFrames) {
   const Scene scene = scene_of("320x180");
   FrameRenderer renderer(scene);
   const FullPaint expected(scene);
-  Random random(1);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(1);
   for (int i = 0; i < 200; ++i) {
     const std::int64_t k = random.integer(0, renderer.frame_count() - 1);
-    ASSERT_TRUE(bytes_of(renderer.frame(k)) == expected.frame(k)) << k;
-    ASSERT_TRUE(bytes_of(renderer.frame(k)) == expected.frame(k)) << k << " again";
+    ASSERT_TRUE(words_of(renderer.frame(k)) == expected.frame(k)) << k;
+    ASSERT_TRUE(words_of(renderer.frame(k)) == expected.frame(k)) << k << " again";
   }
 }
 
 TEST(FrameRenderer, RefusesNumbersOutOfRangeAndGoesOn) {
   const Scene scene = scene_of("64x32");
   FrameRenderer renderer(scene);
-  const Bytes last = bytes_of(renderer.frame(renderer.frame_count() - 1));
+  const auto last = words_of(renderer.frame(renderer.frame_count() - 1));
   constexpr auto kLowest = std::numeric_limits<std::int64_t>::min();
   constexpr auto kHighest = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t number : {std::int64_t{-1}, renderer.frame_count(), kLowest, kHighest}) {
     EXPECT_THROW(renderer.frame(number), UsageError) << number;
   }
-  EXPECT_EQ(bytes_of(renderer.frame(renderer.frame_count() - 1)), last);
+  EXPECT_EQ(words_of(renderer.frame(renderer.frame_count() - 1)), last);
 }
 
 TEST(FrameRenderer, RefusesASceneThatWasNotChecked) {
@@ -111,7 +88,7 @@ TEST(FrameRenderer, CopiesOnlyPixels) {
   Bytes buffer(kStride * 32 + 5, kUntouched);
   renderer.copy_frame(7, buffer, kStride);
   const ImageView copied{buffer.data(), 63, 32, kStride};
-  EXPECT_EQ(bytes_of(copied), bytes_of(renderer.frame(7)));
+  EXPECT_EQ(words_of(copied), words_of(renderer.frame(7)));
   for (std::size_t y = 0; y < 32; ++y) {
     const auto gap = buffer.begin() + std::ptrdiff_t(y * kStride + 63 * 4);
     EXPECT_EQ(std::count(gap, gap + 12 - (y == 31 ? 7 : 0), kUntouched), y == 31 ? 5 : 12) << y;
@@ -144,9 +121,9 @@ TEST(FrameRenderer, RefusesABufferOrStrideThatIsTooSmall) {
 
 TEST(FrameRenderer, CanBeMoved) {
   FrameRenderer first(scene_of("64x32"));
-  const Bytes expected = bytes_of(first.frame(50));
+  const auto expected = words_of(first.frame(50));
   FrameRenderer second = std::move(first);
-  EXPECT_EQ(bytes_of(second.frame(50)), expected);
+  EXPECT_EQ(words_of(second.frame(50)), expected);
 }
 
 }  // namespace

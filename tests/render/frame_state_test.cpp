@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -82,9 +82,12 @@ double surface_of(const TwoBlocks& system, const PairCollision& collision) {
   return collision.red.position - to_double(system.red.width / 2);
 }
 
-FrameState state_of(const PairLog& log, const Schedule& schedule, std::int64_t frame) {
-  const Rational video_s = Rational(frame) / kFrames_hz;
-  return frame_state(log, schedule.at(video_s), {.hits = true}, 1, {schedule, video_s});
+FrameState state_at(const Log& log, const Schedule& schedule, const Rational& video_s) {
+  return frame_state(log, schedule.at(video_s), {.hits = true}, 1, VideoTime{schedule, video_s});
+}
+
+FrameState state_of(const Log& log, const Schedule& schedule, std::int64_t frame) {
+  return state_at(log, schedule, Rational(frame) / kFrames_hz);
 }
 
 struct Seen {
@@ -287,8 +290,7 @@ Scene any_film(Random& random) {
 }
 
 TEST(Hits, OfAnyPacing) {
-  Random random(20261122);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(20261122);
   for (std::int64_t i = 0; i < many(12); ++i) {
     SCOPED_TRACE(i);
     expect_true_hits(any_film(random));
@@ -354,8 +356,7 @@ TEST(FrameStates, PairsThatMetAreThoseOfTheNewestCollisions) {
   const Schedule schedule = make_schedule(scene, *log);
   int backwards = 0;
   for (Rational video_s = Rational(1, 3); video_s < 11; video_s += Rational(1, 3)) {
-    const FrameState state =
-        frame_state(*log, schedule.at(video_s), {.hits = true}, 1, {schedule, video_s});
+    const FrameState state = state_at(*log, schedule, video_s);
     if (state.met_pairs.empty()) continue;
     const bool is_forward = schedule.at(video_s).time < schedule.at(video_s + Rational(1, 99)).time;
     backwards += is_forward ? 0 : 1;
@@ -371,7 +372,6 @@ TEST(FrameStates, PairsThatMetAreThoseOfTheNewestCollisions) {
   EXPECT_GT(backwards, 3);
 }
 
-/// A hit is on the surface of both bodies.
 TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
   for (const int dimensions : {1, 2}) {
     SCOPED_TRACE(dimensions);
@@ -381,9 +381,7 @@ TEST(FrameStates, OfBodiesHaveHitsWhereSurfacesTouch) {
     const Schedule schedule = make_schedule(scene, *log);
     int hits = 0;
     for (std::int64_t frame = 0; frame < schedule.frame_count().get_si(); ++frame) {
-      const Rational video_s = Rational(frame) / kFrames_hz;
-      const FrameState state =
-          frame_state(*log, schedule.at(video_s), {.hits = true}, 1, {schedule, video_s});
+      const FrameState state = state_of(*log, schedule, frame);
       EXPECT_EQ(state.met_pairs.empty(), state.hits_per_s <= kMaxHitsPerSecond);
       for (const Hit& hit : state.hits) {
         ++hits;

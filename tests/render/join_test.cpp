@@ -2,20 +2,21 @@
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/script.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
-#include "support/decode_video.hpp"
+#include "draw/composed_pictures.hpp"
+#include "rendered_parts.hpp"
+#include "support/contains.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
+using testing_support::contains;
 using testing_support::file_contents;
 using testing_support::TemporaryFolder;
 
@@ -25,25 +26,8 @@ class JoinTest : public testing::Test {
 
   /// Five seconds of video, with one thing changed.
   static Scene scene(const std::string& key = "time.from", const std::string& value = "1") {
-    ScriptBuilder builder;
-    builder.set("test", "view.size", "64x36");
-    builder.set("test", "view.fps", "24");
-    builder.set("test", "time.to", "6");
-    builder.set("test", key, value);
-    return builder.build_scene();
-  }
-
-  std::string rendered_part(const Shard& part, const RenderJob& job) const {
-    RenderJob share = job;
-    share.shard = part;
-    render(share, [](const Progress&) {});
-    return shard_name(job.output, part);
-  }
-
-  std::vector<std::string> rendered_parts(int count, const RenderJob& job) const {
-    std::vector<std::string> parts;
-    for (int i = 1; i <= count; ++i) parts.push_back(rendered_part({i, count}, job));
-    return parts;
+    return scene_with(
+        {{"view.size", "64x36"}, {"view.fps", "24"}, {"time.to", "6"}, {key.c_str(), value}});
   }
 
   std::string problem(const std::vector<std::string>& parts, const std::string& output) const {
@@ -70,7 +54,7 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
 
 TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
   for (const std::string name : {"a.mp4", "a.y4m", "a.framehash", "%03d.png"}) {
-    render({scene(), path("whole/" + name)}, [](const Progress&) {});
+    render_silently({scene(), path("whole/" + name)});
     for (const int count : {1, 3, 40}) {
       RenderJob job{scene(), path("parts/" + name)};
       job.jobs = count % 3 + 1;
@@ -100,8 +84,8 @@ TEST_F(JoinTest, NeedsEveryPartOnce) {
   EXPECT_EQ(problem({parts[2], parts[0]}, "b.mp4"), "join: part 2 of 3 is missing");
   EXPECT_EQ(problem({parts[1]}, "b.mp4"),
             "join: part 1 of 3 is missing\njoin: part 3 of 3 is missing");
-  EXPECT_NE(problem({parts[0], parts[1], parts[2], parts[0]}, "b.mp4").find("both part 1 of 3"),
-            std::string::npos);
+  EXPECT_TRUE(
+      contains(problem({parts[0], parts[1], parts[2], parts[0]}, "b.mp4"), "both part 1 of 3"));
 }
 
 TEST_F(JoinTest, RefusesPartsOfDifferentJobs) {
@@ -126,17 +110,14 @@ TEST_F(JoinTest, RefusesPartsOfDifferentJobs) {
   std::get<Scene>(longer.script).time.to.offset += 1;
   EXPECT_TRUE(ends_with(longer, "time.to"));
   EXPECT_TRUE(ends_with({scene(), {}, {.crf = 20}}, "crf"));
-  EXPECT_NE(problem({one, rendered_part({2, 3}, job)}, "c.mp4").find("number of parts"),
-            std::string::npos);
+  EXPECT_TRUE(contains(problem({one, rendered_part({2, 3}, job)}, "c.mp4"), "number of parts"));
 }
 
 TEST_F(JoinTest, TellsLogosApartByWhatIsInTheFile) {
   const auto logo = [this](const std::string& name, std::uint32_t color) {
     const Image image{8, 8, std::vector<std::uint32_t>(64, color)};
     const auto bytes = encode_png(image.view());
-    std::ofstream(path(name), std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    return path(name);
+    return folder_.save(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
   RenderJob job{scene("show.logo", logo("a.png", 0xff00ff00)), path("a.y4m")};
   const std::string one = rendered_part({1, 2}, job);
@@ -153,8 +134,7 @@ TEST_F(JoinTest, RefusesAnotherKindOfOutput) {
       "join: the parts are of y4m, and '" + path("a.mp4") +
           "' is mp4 by builtin here; choose a name of the kind that they were rendered for, on a "
           "machine with the same libraries");
-  EXPECT_NE(problem(parts, "a.framehash").find("' is framehash by murmur3 here"),
-            std::string::npos);
+  EXPECT_TRUE(contains(problem(parts, "a.framehash"), "' is framehash by murmur3 here"));
   const auto videos = rendered_parts(2, {scene(), path("a.mp4")});
   EXPECT_TRUE(problem(videos, "a.y4m").starts_with("join: the parts are of mp4 by builtin, and "));
 }
@@ -180,8 +160,7 @@ TEST_F(JoinTest, RefusesNumbersThatMakeNoSense) {
   const auto with = [&](const std::string& line, const std::string& other) {
     std::string text = whole;
     text.replace(text.find(line), line.size(), other);
-    std::ofstream(path("changed"), std::ios::binary) << text;
-    return problem({path("changed")}, "b.y4m");
+    return problem({folder_.save("changed", text)}, "b.y4m");
   };
   for (const std::string other : {"0/1", "2/1", "1/0", "-1/1", "1", "1/", "/1", "1/1x", ""}) {
     EXPECT_EQ(with("part: 1/1", "part: " + other),
@@ -202,19 +181,18 @@ TEST_F(JoinTest, NoticesAPartWithoutItsLastChunks) {
   const std::string part = rendered_parts(1, {scene(), path("a.framehash")}).front();
   std::string text = file_contents(part);
   text.replace(text.find("frames: 120"), 11, "frames: 121");
-  std::ofstream(path("changed"), std::ios::binary) << text;
-  EXPECT_THROW(join({path("changed")}, path("b.framehash")), IoError);
+  EXPECT_THROW(join({folder_.save("changed", text)}, path("b.framehash")), IoError);
 }
 
 TEST_F(JoinTest, APartMustBeOneOfItsCount) {
   RenderJob job{scene(), path("a.y4m")};
   for (const Shard part : {Shard{0, 3}, Shard{4, 3}, Shard{-1, -1}, Shard{1, 0}}) {
     job.shard = part;
-    EXPECT_THROW(render(job, [](const Progress&) {}), UsageError);
+    EXPECT_THROW(render_silently(job), UsageError);
   }
   for (const char* name : {"-", "null"}) {
     const RenderJob nameless{scene(), name, {}, 1, Shard{1, 1}};
-    EXPECT_THROW(render(nameless, [](const Progress&) {}), UsageError);
+    EXPECT_THROW(render_silently(nameless), UsageError);
   }
   EXPECT_TRUE(folder_.is_empty());
 }

@@ -1,13 +1,10 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/script.hpp>
 
-#include <cstring>
-
-#include "draw/canvas.hpp"
-#include "draw/composition.hpp"
+#include "draw/composed_pictures.hpp"
 #include "media/png/png_reader.hpp"
+#include "rendered_parts.hpp"
 #include "scene/schedule.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
@@ -25,59 +22,48 @@ class RenderTest : public testing::Test {
   std::string path(const char* name) const { return folder_ / name; }
 
   static Scene scene(const char* from, const char* to) {
-    ScriptBuilder builder;
-    builder.set("test", "view.size", "320x180");
-    builder.set("test", "time.from", from);
-    builder.set("test", "time.to", to);
-    return builder.build_scene();
+    return scene_with({{"view.size", "320x180"}, {"time.from", from}, {"time.to", to}});
   }
 
   TemporaryFolder folder_;
 };
 
-Pixels painted(const Scene& scene, const State& state) {
-  const auto log = make_pair_log(scene.system);
-  Canvas canvas(scene.view.width_px, scene.view.height_px);
-  canvas.paint(Composition(scene, *log).frame({state}));
-  Pixels pixels(scene.view.width_px, scene.view.height_px);
-  for (int y = 0; y < pixels.height_px; ++y) {
-    std::memcpy(&pixels.at(0, y), canvas.view().row(y), std::size_t(pixels.width_px) * 4);
-  }
-  return pixels;
-}
-
-double error_between(const Pixels& a, const Pixels& b) {
-  return testing_support::rgb_mean_squared_error(a, b);
+/// The mean squared error of a frame of the video.
+double error_of(const Pixels& frame, const Scene& scene, const State& state) {
+  Pixels expected(frame.width_px, frame.height_px);
+  expected.words = painted(Pictures(scene).composition.frame({state}));
+  return testing_support::rgb_mean_squared_error(frame, expected);
 }
 
 TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {
   const Scene article = scene("3.4", "4.4");
   RenderJob job{article, path("out.mp4"), {}, 2};
-  const std::int64_t frames = render(job, [](const Progress&) {}).frame_count;
+  const std::int64_t frames = render_silently(job).frame_count;
   const DecodedVideo video = decode_video(job.output);
   const auto log = make_pair_log(article.system);
   const Schedule schedule = make_schedule(article, *log);
   ASSERT_EQ(std::int64_t(video.frames.size()), frames);
   ASSERT_EQ(frames, film_frames(schedule));
   for (std::int64_t k = 0; k < frames; ++k) {
-    const Pixels expected = painted(article, log->state_at(schedule.time_of(k)));
-    const double mse = error_between(video.frames[std::size_t(k)].rgb, expected);
+    const State state = log->state_at(schedule.time_of(k));
+    const double mse = error_of(video.frames[std::size_t(k)].rgb, article, state);
     EXPECT_GT(testing_support::psnr_db(mse), 38) << "frame " << k;
   }
 }
 
 TEST_F(RenderTest, TheLastFrameReads314) {
   const Scene article = scene("12.2", "last");
-  render({article, path("out.mp4"), {}, 2}, [](const Progress&) {});
+  render_silently({article, path("out.mp4"), {}, 2});
   const DecodedVideo video = decode_video(path("out.mp4"));
   const auto log = make_pair_log(article.system);
   const Schedule schedule = make_schedule(article, *log);
   State state = log->state_at(schedule.time_of(film_frames(schedule) - 1));
   ASSERT_EQ(state.count, 314);
-  const double as_314 = error_between(video.frames.back().rgb, painted(article, state));
+  const Pixels& last = video.frames.back().rgb;
+  const double as_314 = error_of(last, article, state);
   for (const int other : {313, 315, 214, 324}) {
     state.count = other;
-    EXPECT_GT(error_between(video.frames.back().rgb, painted(article, state)), 4 * as_314) << other;
+    EXPECT_GT(error_of(last, article, state), 4 * as_314) << other;
   }
 }
 
@@ -85,7 +71,7 @@ TEST_F(RenderTest, BytesDoNotDependOnTheNumberOfJobs) {
   for (const char* name : {"out.mp4", "out.y4m", "out.framehash"}) {
     std::string first;
     for (const int jobs : {1, 2, 3, 7}) {
-      render({scene("1", "6"), path(name), {}, jobs}, [](const Progress&) {});
+      render_silently({scene("1", "6"), path(name), {}, jobs});
       const std::string bytes = file_contents(path(name));
       if (first.empty()) first = bytes;
       EXPECT_EQ(bytes == first, true) << name << " with " << jobs << " jobs";
@@ -118,30 +104,22 @@ TEST_F(RenderTest, StoppingLeavesNoTrace) {
 }
 
 TEST_F(RenderTest, FailingLeavesNoTrace) {
-  EXPECT_THROW(render({scene("0", "1"), path("out.avi"), {}, 2}, [](const Progress&) {}),
-               UsageError);
+  EXPECT_THROW(render_silently({scene("0", "1"), path("out.avi"), {}, 2}), UsageError);
   EXPECT_THROW(render_still(scene("0", "1"), Instant::last(), path("out.jpg")), UsageError);
   EXPECT_THROW(render_still(scene("0", "1"), Instant::collision(315), path("out.png")), UsageError);
   EXPECT_TRUE(folder_.is_empty());
 }
 
 TEST_F(RenderTest, AStillIsTheFrameOfItsInstant) {
-  const Scene article = scene("3.5", "3.51");
-  render({article, path("frame%d.png"), {}, 1}, [](const Progress&) {});
-  render_still(article, Rational(7, 2), path("still.png"));
-  EXPECT_EQ(read_png(path("frame1.png")).words, read_png(path("still.png")).words);
-}
-
-TEST_F(RenderTest, AStillInSlowMotionSaysSoAsTheFrameDoes) {
-  ScriptBuilder builder;
-  builder.set("test", "view.size", "640x360");
-  builder.set("test", "time.from", "3.5");
-  builder.set("test", "time.to", "3.51");
-  builder.set("test", "time.slow-motion", "turn-0.1:turn+0.1:10");
-  const Scene slow = builder.build_scene();
-  render({slow, path("frame%d.png"), {}, 1}, [](const Progress&) {});
-  render_still(slow, Rational(7, 2), path("still.png"));
-  EXPECT_EQ(read_png(path("frame1.png")).words, read_png(path("still.png")).words);
+  const Scene slow = scene_with({{"view.size", "640x360"},
+                                 {"time.from", "3.5"},
+                                 {"time.to", "3.51"},
+                                 {"time.slow-motion", "turn-0.1:turn+0.1:10"}});
+  for (const Scene& shown : {scene("3.5", "3.51"), slow}) {
+    render_silently({shown, path("frame%d.png"), {}, 1});
+    render_still(shown, Rational(7, 2), path("still.png"));
+    EXPECT_EQ(read_png(path("frame1.png")).words, read_png(path("still.png")).words);
+  }
 }
 
 }  // namespace

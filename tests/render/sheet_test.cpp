@@ -3,25 +3,19 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "render/renderings.hpp"
 #include "scene/schedule.hpp"
-#include "support/property.hpp"
+#include "support/article_scene.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
 
-Scene scene_of_digits(int digits) {
-  Scene scene;
-  scene.system = article_system(digits);
-  scene.view.width_px = 64;
-  scene.view.height_px = 36;
-  return scene;
-}
+Scene scene_of_digits(int digits) { return testing_support::article_scene(digits, 64, 36); }
 
 /// Any masses and places, also parts of a run, and runs before time 0.
 Scene any_run(Random& random) {
@@ -42,8 +36,7 @@ std::vector<Integer> counts_at(const std::vector<Instant>& instants, const PairL
 }
 
 TEST(SheetInstants, AreEquallyFarApartInCount) {
-  Random random(31415);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(31415);
   int spread = 0;
   for (int i = 0; i < many(300); ++i) {
     const Scene scene = any_run(random);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <regex>
@@ -13,16 +12,12 @@
 #include <vector>
 
 #include "render/film.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::map<std::string, fs::path> shipped_scenes() {
   std::map<std::string, fs::path> scenes;
@@ -32,15 +27,22 @@ std::map<std::string, fs::path> shipped_scenes() {
   return scenes;
 }
 
+Film film_of_file(const fs::path& file) {
+  ScriptBuilder builder;
+  builder.read_file(file);
+  return Film(builder.build());
+}
+
 /// What people read about a scene: its row in the table, its comments, and its quoted texts.
 std::string words_about(const std::string& name, const fs::path& file) {
-  const std::string readme = text_of(fs::path(PIBLOCKS_SCENES) / "README.md");
+  const std::string readme =
+      testing_support::file_contents(fs::path(PIBLOCKS_SCENES) / "README.md");
   const std::string row = "| [" + name + "](";
   std::string words;
   if (const std::size_t at = readme.find(row); at != std::string::npos) {
     words = readme.substr(at, readme.find('\n', at) - at);
   }
-  const std::string toml = text_of(file);
+  const std::string toml = testing_support::file_contents(file);
   for (const std::regex& part : {std::regex("#[^\n]*"), std::regex("\"[^\"\n]*\"")}) {
     for (std::sregex_iterator found(toml.begin(), toml.end(), part), end; found != end; ++found) {
       words += "\n" + found->str();
@@ -109,9 +111,7 @@ TEST(ShippedScenes, EndOnTheirLastCollision) {
   for (const auto& [name, file] : shipped_scenes()) {
     if (excerpts.contains(name)) continue;
     SCOPED_TRACE(name);
-    ScriptBuilder builder;
-    builder.read_file(file);
-    const Film film(builder.build());
+    const Film film = film_of_file(file);
     for (const auto& [counters, all] : endings_of(film)) {
       ASSERT_EQ(counters.size(), all.size());
       for (std::size_t k = 0; k < all.size(); ++k) {
@@ -129,9 +129,7 @@ TEST(ShippedScenes, ShowTheNumbersThatTheyName) {
   std::set<std::string> all_named;
   for (const auto& [name, file] : shipped_scenes()) {
     SCOPED_TRACE(name);
-    ScriptBuilder builder;
-    builder.read_file(file);
-    const Film film(builder.build());
+    const Film film = film_of_file(file);
     std::set<std::string> shown;
     for (const auto& [counters, runs] : endings_of(film)) {
       shown.insert(counters.begin(), counters.end());

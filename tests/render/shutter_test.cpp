@@ -4,48 +4,33 @@
 #include <piblocks/render.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "draw/canvas.hpp"
-#include "draw/composition.hpp"
+#include "draw/composed_pictures.hpp"
 #include "mean_light.hpp"
 #include "render/film.hpp"
-#include "scene/schedule.hpp"
+#include "support/article_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
 
 Scene scene_of(int digits, FrameSize size, const Rational& shutter) {
-  Scene scene;
-  scene.system = article_system(digits);
-  scene.view.width_px = size.width_px;
-  scene.view.height_px = size.height_px;
+  Scene scene = testing_support::article_scene(digits, size.width_px, size.height_px);
   scene.view.shutter = shutter;
   return scene;
 }
 
-/// The bounds of a block at an instant.
-Rect bounds_of(const DrawList& list, ItemId block) {
-  for (const DrawItem& item : list.items) {
-    const auto* rectangle = std::get_if<RectangleItem>(&item);
-    if (rectangle != nullptr && rectangle->id == block) return rectangle->bounds;
-  }
-  return {};
-}
-
 /// Rows in which the blocks look different: above them, their upper lines, their middle, and so on.
 std::vector<int> rows_of(const Scene& scene) {
-  const auto log = make_pair_log(scene.system);
-  const DrawList list = Composition(scene, *log).frame({log->state_at(Rational(0))});
+  const DrawList list = Pictures(scene).at(0);
   std::set<int> rows;
   for (const ItemId block : {ItemId::red_block, ItemId::blue_block}) {
-    const Rect bounds = bounds_of(list, block);
+    const Rect& bounds = item_of<RectangleItem>(list, block).bounds;
     const int top = static_cast<int>(std::floor(bounds.y));
     const int bottom = static_cast<int>(std::ceil(bounds.bottom()));
     rows.insert((top + bottom) / 2);
@@ -54,51 +39,18 @@ std::vector<int> rows_of(const Scene& scene) {
   return {rows.begin(), rows.end()};
 }
 
-/// Samples of some rows: three a pixel.
-std::vector<int> samples_of(const ImageView& picture, const std::vector<int>& rows) {
-  std::vector<int> samples;
-  for (const int row : rows) {
-    for (int x = 0; x < picture.width_px; ++x) {
-      for (int c = 0; c < 3; ++c) samples.push_back(picture.row(row)[4 * x + c]);
-    }
-  }
-  return samples;
-}
-
-/// The mean in linear light of the pictures of many instants at which a frame's shutter is open.
-std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
-  constexpr int kInstants = 1000;
-  const auto log = make_pair_log(scene.system);
-  const Schedule schedule = make_schedule(scene, *log);
-  const Composition composition(scene, *log);
-  const Integer count = log->blocks_at(schedule.time_of(frame)).count;
-  const std::vector<int> rows = rows_of(scene);
-  MeanLight mean;
-  Canvas canvas(scene.view.width_px, scene.view.height_px);
-  for (int i = 0; i < kInstants; ++i) {
-    const Rational video_s =
-        (frame + scene.view.shutter * Rational(2 * i + 1, 2 * kInstants)) / scene.view.frame_rate;
-    State state = log->state_at(schedule.at(video_s).time);
-    state.count = count;
-    canvas.update(composition.frame({state}));
-    mean.add(samples_of(canvas.view(), rows));
-  }
-  return mean.samples();
-}
-
 /// @param most  steps of 255; half of one is the rounding of the sample.
 void expect_mean_of_instants(const Scene& scene, std::initializer_list<std::int64_t> frames,
                              double most = 2.5) {
   FrameRenderer renderer(scene);
-  const std::vector<int> rows = rows_of(scene);
+  const auto samples = [rows = rows_of(scene)](const ImageView& picture) {
+    return samples_of(picture, rows);
+  };
   for (const std::int64_t frame : frames) {
-    const std::vector<int> samples = samples_of(renderer.frame(frame), rows);
-    const std::vector<double> wanted = mean_of_instants(scene, frame);
-    double worst = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      worst = std::max(worst, std::fabs(samples[i] - wanted[i]));
-    }
-    EXPECT_LE(worst, most) << "frame " << frame << " of " << scene.view.width_px << " pixels";
+    EXPECT_LE(difference_of(samples(renderer.frame(frame)), mean_of_instants(scene, frame, samples))
+                  .worst,
+              most)
+        << "frame " << frame << " of " << scene.view.width_px << " pixels";
   }
 }
 
@@ -160,15 +112,11 @@ TEST(Shutter, FramesOfEveryThemeAreMeansOfInstants) {
   }
 }
 
-std::vector<std::uint8_t> bytes_of(const ImageView& picture) { return encode_png(picture); }
-
 TEST(Shutter, ClosedShowsTheInstant) {
   const Scene scene = scene_of(3, {320, 180}, 0);
   const Film film(scene);
   for (const std::int64_t frame : {0, 90, 210}) {
-    for (const DrawItem& item : film.frame(frame).items) {
-      EXPECT_FALSE(std::holds_alternative<ExposedBlocksItem>(item));
-    }
+    EXPECT_TRUE(items_of<ExposedBlocksItem>(film.frame(frame).items).empty());
   }
 }
 
@@ -182,16 +130,15 @@ TEST(Shutter, WhatStandsStillIsTheInstant) {
   FrameRenderer instants(closed);
   const std::int64_t last = exposed.frame_count() - 1;
   for (const std::int64_t frame : {std::int64_t{210}, std::int64_t{240}, last - 30, last}) {
-    EXPECT_TRUE(bytes_of(exposed.frame(frame)) == bytes_of(instants.frame(frame))) << frame;
+    EXPECT_TRUE(words_of(exposed.frame(frame)) == words_of(instants.frame(frame))) << frame;
   }
 }
 
-/// What stays is drawn as ever beside what moves.
 TEST(Shutter, BlueAtRestIsAsInTheInstant) {
   Scene open = scene_of(3, {333, 217}, 1);
   Scene closed = open;
   closed.view.shutter = 0;
-  const Rect blue = bounds_of(Film(closed).frame(0), ItemId::blue_block);
+  const Rect blue = item_of<RectangleItem>(Film(closed).frame(0), ItemId::blue_block).bounds;
   const int left = static_cast<int>(blue.x) - 2;
   const int right = static_cast<int>(blue.right()) + 2;
   FrameRenderer exposed(open);
@@ -215,9 +162,7 @@ TEST(Shutter, UpdatesAreWhatPaintingGives) {
       for (std::int64_t frame = 80; frame < film.frame_count(); frame += frame == 100 ? 95 : 1) {
         canvas.update(film.frame(frame));
         if (frame > 250) break;
-        Canvas fresh(size.width_px, size.height_px);
-        fresh.paint(film.frame(frame));
-        ASSERT_TRUE(bytes_of(canvas.view()) == bytes_of(fresh.view())) << "frame " << frame;
+        ASSERT_TRUE(words_of(canvas.view()) == painted(film.frame(frame))) << "frame " << frame;
       }
     }
   }
@@ -244,7 +189,7 @@ TEST(Shutter, OfAStillIsThatOfTheFrameAtItsInstant) {
   const std::string file = folder / "still.png";
   for (const auto& [instant, frame] : {std::pair{Rational(3, 2), 180}, {Rational(7, 2), 420}}) {
     render_still(scene, instant, file);
-    const std::vector<std::uint8_t> bytes = bytes_of(renderer.frame(frame));
+    const std::vector<std::uint8_t> bytes = encode_png(renderer.frame(frame));
     EXPECT_TRUE(testing_support::file_contents(file) == std::string(bytes.begin(), bytes.end()))
         << instant;
   }

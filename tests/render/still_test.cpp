@@ -10,50 +10,30 @@
 #include <utility>
 #include <vector>
 
-#include "draw/canvas.hpp"
+#include "draw/found_items.hpp"
 #include "media/png/png_reader.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
+#include "rendered_parts.hpp"
 #include "scene/schedule.hpp"
-#include "support/property.hpp"
+#include "support/article_scene.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
-
-std::string pixels_of(const ImageView& image) {
-  std::string pixels;
-  for (int y = 0; y < image.height_px; ++y) {
-    pixels.append(reinterpret_cast<const char*>(image.row(y)),
-                  static_cast<std::size_t>(4 * image.width_px));
-  }
-  return pixels;
-}
-
-std::string pixels_of(const DrawList& list) {
-  Canvas canvas(list.width_px, list.height_px,
-                list.background ? Background::opaque : Background::transparent);
-  canvas.paint(list);
-  return pixels_of(canvas.view());
-}
 
 /// Frames as files, rendered in a number of parts that are joined.
 class RenderedFrames {
  public:
   RenderedFrames(const Script& script, int parts) {
-    std::vector<std::string> names;
-    for (int number = 1; number <= parts; ++number) {
-      RenderJob job{script, folder_ / "%d.png"};
-      job.shard = Shard{number, parts};
-      render(job, [](const Progress&) {});
-      names.push_back(shard_name(job.output, *job.shard));
-    }
-    count_ = join(names, folder_ / "%d.png").frame_count;
+    const std::string names = folder_ / "%d.png";
+    count_ = join(rendered_parts(parts, {script, names}), names).frame_count;
   }
 
   std::int64_t count() const { return count_; }
-  std::string pixels(std::int64_t frame) const {
-    return pixels_of(read_png(folder_ / (std::to_string(frame + 1) + ".png")).view());
+  std::vector<std::uint32_t> pixels(std::int64_t frame) const {
+    return read_png(folder_ / (std::to_string(frame + 1) + ".png")).words;
   }
 
  private:
@@ -78,11 +58,8 @@ Instant any_instant(Random& random, const Integer& total) {
 
 /// Scenes of few frames, with any pacing and shutter.
 Scene any_scene(Random& random) {
-  Scene scene;
-  scene.system = article_system(static_cast<int>(random.integer(1, 12)));
+  Scene scene = testing_support::article_scene(static_cast<int>(random.integer(1, 12)), 96, 54);
   if (random.integer(0, 2) == 0) scene.system.bodies[1].mass = random.rational(1, 5000, 7) + 1;
-  scene.view.width_px = 96;
-  scene.view.height_px = 54;
   scene.view.frame_rate = random.integer(0, 1) == 0 ? Rational(4) : Rational(5000, 1001);
   if (random.integer(0, 1) == 0) scene.view.shutter = Rational(random.integer(1, 4)) / 4;
   scene.show.overlays = {Overlay::time};
@@ -147,8 +124,7 @@ std::optional<Film> film_of(const Scene& scene) {
 }
 
 TEST(Still, IsTheFilmsFrameInAnyScene) {
-  Random random(1618);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(1618);
   int scenes = 0;
   int compared = 0;
   for (int i = 0; scenes < many(50); ++i) {
@@ -164,7 +140,7 @@ TEST(Still, IsTheFilmsFrameInAnyScene) {
       const std::int64_t first = first_at(schedule, time, count);
       const DrawList still = still_picture(scene, time);
       ++compared;
-      ASSERT_TRUE(still == film->frame(first) || pixels_of(still) == pixels_of(film->frame(first)))
+      ASSERT_TRUE(still == film->frame(first) || painted(still) == painted(film->frame(first)))
           << "scene " << i << ", frame " << first << " of " << count << described(scene);
     }
   }
@@ -192,8 +168,7 @@ Storyboard any_storyboard(Random& random) {
 }
 
 TEST(Still, IsTheFrameOfAFilmThatIsRenderedInParts) {
-  Random random(2236);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(2236);
   int films = 0;
   int compared = 0;
   for (int i = 0; films < many(15); ++i) {
@@ -214,7 +189,7 @@ TEST(Still, IsTheFrameOfAFilmThatIsRenderedInParts) {
           frame = first_at(schedule, instant, frames.count());
         }
         ++compared;
-        ASSERT_TRUE(pixels_of(still_picture(script, instant)) == frames.pixels(frame))
+        ASSERT_TRUE(painted(still_picture(script, instant)) == frames.pixels(frame))
             << "film " << i << ", frame " << frame << " of " << frames.count();
       }
     } catch (const UsageError&) {  // spans without time, fades without room
@@ -226,18 +201,15 @@ TEST(Still, IsTheFrameOfAFilmThatIsRenderedInParts) {
 // Where collisions anchor them, too: what a freeze or an end shows is what a still of it shows.
 TEST(Still, OfAnAnchorIsWhereTheFilmStops) {
   for (int digits = 1; digits <= 20; ++digits) {
-    Scene scene;
-    scene.system = article_system(digits);
-    scene.view.width_px = 96;
-    scene.view.height_px = 54;
+    Scene scene = testing_support::article_scene(digits, 96, 54);
     scene.view.frame_rate = 4;
     scene.view.shutter = Rational(1, 2);
     scene.time.to = Instant::last();
     scene.pacing.duration_s = 3;
     scene.pacing.hold_end_s = 1;
     const Film film(scene);
-    EXPECT_EQ(pixels_of(still_picture(scene, Instant::last())),
-              pixels_of(film.frame(film.frame_count() - 1)))
+    EXPECT_EQ(painted(still_picture(scene, Instant::last())),
+              painted(film.frame(film.frame_count() - 1)))
         << digits;
   }
 }

@@ -6,12 +6,16 @@
 #include <utility>
 #include <vector>
 
-#include "scene/bodies_fixture.hpp"
+#include "scene/file_fixture.hpp"
 #include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
+#include "support/message_of.hpp"
 
 namespace piblocks {
 namespace {
+
+using testing_support::message_of;
+using BodiesFile = FileFixture;
 
 const std::string kNeedsPair =
     ", which needs two blocks beside one wall or fixed block, and no more; leave it out";
@@ -104,13 +108,8 @@ TEST_F(BodiesFile, CollisionsWithoutEndNeedATime) {
       "2\n[[body]]\nposition = 5\nmass = 3\n";
   for (const char* to : {"", "[time]\nto = 'last+1'\n"}) {
     const Scene scene = load(box + to);
-    try {
-      make_schedule(scene, *log_of(scene));
-      FAIL() << to;
-    } catch (const UsageError& error) {
-      EXPECT_STREQ(error.what(),
-                   "time.to: these bodies may collide for ever; say until when, as time.to = 10");
-    }
+    EXPECT_EQ(message_of<UsageError>([&] { make_schedule(scene, *log_of(scene)); }),
+              "time.to: these bodies may collide for ever; say until when, as time.to = 10");
   }
   EXPECT_GT(log_of(load(box + "[time]\nto = 20\n"))->last(), 4);
   const Scene fifth = load(box + "[time]\nto = '#5'\n");

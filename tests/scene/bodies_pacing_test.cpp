@@ -1,7 +1,7 @@
 // Automatic slow motion of bodies: its middle is where their collisions are densest.
 #include <algorithm>
 
-#include "scene/bodies_fixture.hpp"
+#include "scene/file_fixture.hpp"
 #include "scene/pacing_fixture.hpp"
 #include "scene/run_log.hpp"
 
@@ -15,7 +15,7 @@ const std::string kSqueezed =
     "[[body]]\nposition = 1\n[[body]]\nposition = 3\nmass = 30\n"
     "[[body]]\nposition = 5\nmass = 1000\nvelocity = -1\n[box]\nx = [0, 'inf']\n";
 
-class BodiesPacing : public BodiesFile {
+class BodiesPacing : public FileFixture {
  protected:
   /// The slowest stretch and where it ends.
   struct Slowest {

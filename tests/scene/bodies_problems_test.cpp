@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "scene/bodies_fixture.hpp"
+#include "scene/file_fixture.hpp"
 
 namespace piblocks {
 namespace {
+
+using BodiesFile = FileFixture;
 
 TEST_F(BodiesFile, KeysOfABodyAreChecked) {
   const std::string body = "[[body]]\nposition = 0\n";
@@ -154,7 +156,7 @@ TEST_F(BodiesFile, AWallThatRecoilsIsChecked) {
     const auto found = problems(std::string("[wall]\nmass = ") + mass + "\n");
     ASSERT_EQ(found.size(), 1U) << mass;
     EXPECT_TRUE(found.front().starts_with(path_ + ":2: wall.mass = ")) << found.front();
-    EXPECT_NE(found.front().find("must be greater than 0"), std::string::npos) << found.front();
+    EXPECT_TRUE(contains(found.front(), "must be greater than 0"));
   }
   expect_problem(wall + "restitution = 0.5\n",
                  "3: wall.restitution is less than 1, which needs two blocks beside one wall or "

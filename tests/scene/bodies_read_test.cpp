@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "scene/bodies_fixture.hpp"
+#include "scene/file_fixture.hpp"
 
 namespace piblocks {
 namespace {
+
+using BodiesFile = FileFixture;
 
 ExactVector vector_of(const char* x, const char* y) {
   return {parse_rational(x), parse_rational(y)};

@@ -9,7 +9,7 @@
 
 #include "scene/pacing.hpp"
 #include "scene/pacing_fixture.hpp"
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -48,8 +48,7 @@ Scene any_pacing(Random& random) {
 }
 
 TEST(Ease, FillsTheSpanAndNeverRunsFasterThanWithoutIt) {
-  Random random(1912);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(1912);
   for (int run = 0; run < many(150); ++run) {
     const Scene scene = any_pacing(random);
     const std::vector<Move> eased = paced(scene);
@@ -73,8 +72,7 @@ TEST(Ease, FillsTheSpanAndNeverRunsFasterThanWithoutIt) {
 
 /// What is slower than its neighbours keeps its speed from beginning to end.
 TEST(Ease, LeavesTheSlowerSideAsItIs) {
-  Random random(2112);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(2112);
   int kept = 0;
   for (int run = 0; run < many(100); ++run) {
     const Scene scene = any_pacing(random);

@@ -8,11 +8,15 @@
 
 #include <fstream>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "support/contains.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
+
+using testing_support::contains;
 
 class FileFixture : public testing::Test {
  protected:
@@ -23,17 +27,33 @@ class FileFixture : public testing::Test {
     return builder.build();
   }
 
+  Scene load(const std::string& text) { return std::get<Scene>(script(text)); }
+
+  /// What is wrong with a file, or with what a builder has read.
   std::vector<std::string> problems(const std::string& text) {
+    return said_by([&] { script(text); });
+  }
+  static std::vector<std::string> problems(const ScriptBuilder& builder) {
+    return said_by([&] { builder.build(); });
+  }
+  /// Expects one problem, whose line is "PATH:" and this.
+  void expect_problem(const std::string& text, const std::string& line) {
+    EXPECT_EQ(problems(text), std::vector<std::string>{path_ + ":" + line}) << text;
+  }
+
+  testing_support::TemporaryFolder folder_;
+  std::string path_ = folder_ / "scene.toml";
+
+ private:
+  template <typename Action>
+  static std::vector<std::string> said_by(const Action& action) {
     try {
-      script(text);
+      action();
     } catch (const SceneError& error) {
       return error.problems();
     }
     return {};
   }
-
-  testing_support::TemporaryFolder folder_;
-  std::string path_ = folder_ / "scene.toml";
 };
 
 }  // namespace piblocks

@@ -6,7 +6,8 @@
 
 #include <string>
 
-#include "support/property.hpp"
+#include "support/message_of.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -73,8 +74,7 @@ TEST(Instant, OfACollisionCountsExactlyThoseUntilIt) {
 
 // Of every mass ratio, also where a double of the time would stand just before the collision.
 TEST(Instant, OfTheLastCollisionCountsAllOfThem) {
-  Random random(314);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(314);
   for (int i = 0; i < 2000; ++i) {
     TwoBlocks system;
     system.red.mass = random.integer(0, 3) == 0
@@ -154,12 +154,8 @@ TEST(Instant, OfOneOfManyCollisionsAtOnceIsRefused) {
 
 TEST(Instant, SaysWhatTheSceneHas) {
   const auto problem = [](const TwoBlocks& system, const char* text) {
-    try {
-      time_of(parse_instant(text), *make_pair_log(system));
-    } catch (const UsageError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return testing_support::message_of<UsageError>(
+        [&] { time_of(parse_instant(text), *make_pair_log(system)); });
   };
   TwoBlocks resting;
   resting.red.velocity = 0;

@@ -12,14 +12,7 @@
 namespace piblocks {
 namespace {
 
-class SceneFileTest : public FileFixture {
- protected:
-  Scene load(const std::string& text) { return std::get<Scene>(script(text)); }
-};
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using SceneFileTest = FileFixture;
 
 TEST_F(SceneFileTest, EmptyFileIsTheArticlesScene) {
   const Scene scene = load("");
@@ -39,7 +32,7 @@ TEST_F(SceneFileTest, RefusesTextOfMoreThanOneLine) {
     for (const char* text : {"a\\nb.png", "a\\u007F", "\\ta.png"}) {
       const auto found = problems(std::string("[show]\n") + key + " = \"" + text + "\"\n");
       ASSERT_EQ(found.size(), 1U) << key << text;
-      EXPECT_TRUE(contains(found.front(), "must be one line of text")) << found.front();
+      EXPECT_TRUE(contains(found.front(), "must be one line of text"));
     }
   }
   const std::string long_path = std::string(2000, 'a') + ".png";
@@ -65,7 +58,7 @@ TEST_F(SceneFileTest, AnEmptyListIsNoneWhereThereMayBeNone) {
         "[time]\nduration = []", "[time]\nloop = []", "[red]\nwidth = []"}) {
     const auto found = problems(text);
     ASSERT_EQ(found.size(), 1U) << text;
-    EXPECT_TRUE(contains(found.front(), " = []: must be ")) << found.front();
+    EXPECT_TRUE(contains(found.front(), " = []: must be "));
   }
 }
 
@@ -267,6 +260,7 @@ TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
       {"wall.restitution = 0.5\n[show]\noverlays = ['energy', 'digits']",
        ":3: show.overlays has 'digits', which needs elastic collisions"},
       {"wall = 3", "wall"},
+      {"[red]\nmass = = 3\n", ":2: "},
       {"[wall]\nface = []", "wall.face"},
       {"[wall]\nface = { x = 1 }", "wall.face"},
       {"[wall]\nface = 2020-01-01", "wall.face"},
@@ -274,15 +268,9 @@ TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
   for (const auto& [text, expected] : cases) {
     const auto found = problems(text);
     ASSERT_EQ(found.size(), 1u) << text;
-    EXPECT_TRUE(contains(found.front(), expected)) << found.front();
-    EXPECT_TRUE(contains(found.front(), path_ + ":")) << found.front();
+    EXPECT_TRUE(contains(found.front(), expected));
+    EXPECT_TRUE(contains(found.front(), path_ + ":"));
   }
-}
-
-TEST_F(SceneFileTest, SyntaxErrorsNameTheirLine) {
-  const auto found = problems("[red]\nmass = = 3\n");
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(found.front().starts_with(path_ + ":2: ")) << found.front();
 }
 
 TEST_F(SceneFileTest, RefusesWhatItCannotRead) {
@@ -291,7 +279,7 @@ TEST_F(SceneFileTest, RefusesWhatItCannotRead) {
   EXPECT_THROW(builder.read_file(folder_.path().string()), SceneError);
   const auto found = problems(std::string((1 << 20) + 1, '#'));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found.front().find("longer than 1048576 bytes, the most"), std::string::npos);
+  EXPECT_TRUE(contains(found.front(), "longer than 1048576 bytes, the most"));
   EXPECT_THROW(load(std::string(100000, '[')), SceneError);
 }
 
@@ -309,14 +297,10 @@ TEST_F(SceneFileTest, OptionsWinAndAreNamed) {
 
   builder.set("--size", "view.size", "1280");
   builder.set("--fps", "view.fps", "-1");
-  try {
-    builder.build_scene();
-    FAIL();
-  } catch (const SceneError& error) {
-    ASSERT_EQ(error.problems().size(), 2u);
-    EXPECT_TRUE(error.problems()[0].starts_with("--size: view.size = 1280: "));
-    EXPECT_TRUE(error.problems()[1].starts_with("--fps: view.fps = -1: "));
-  }
+  const auto found = problems(builder);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(found[0].starts_with("--size: view.size = 1280: "));
+  EXPECT_TRUE(found[1].starts_with("--fps: view.fps = -1: "));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
@@ -107,8 +107,7 @@ TEST(WidthByMass, IsAnEighthMoreForEveryHundred) {
 }
 
 TEST(WidthByMass, NeverFallsWhereMassGrows) {
-  Random random(9);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(9);
   EXPECT_GT(width_of(Rational(3, 2)), width_of(Rational(32, 25)));
   for (int i = 0; i < 1000; ++i) {
     const Rational one = random.rational(1, 300, 64);

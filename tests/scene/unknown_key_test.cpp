@@ -1,10 +1,10 @@
 // Keys that a scene file does not have: what is said of them.
-#include "scene/bodies_fixture.hpp"
+#include "scene/file_fixture.hpp"
 
 namespace piblocks {
 namespace {
 
-using UnknownKey = BodiesFile;
+using UnknownKey = FileFixture;
 
 TEST_F(UnknownKey, IsAnsweredByTheOneThatWasMeant) {
   const std::pair<const char*, const char*> cases[] = {
@@ -69,7 +69,7 @@ TEST_F(UnknownKey, MisspeltValuesAreAnsweredToo) {
   for (const auto& [text, said] : cases) {
     const std::vector<std::string> found = problems(text);
     ASSERT_EQ(found.size(), 1U) << text;
-    EXPECT_NE(found.front().find(said), std::string::npos) << found.front();
+    EXPECT_TRUE(contains(found.front(), said));
   }
 }
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "physics/impact.hpp"
 #include "sound/click_train.hpp"
+#include "support/article_scene.hpp"
 
 namespace piblocks {
 namespace {
@@ -48,10 +48,8 @@ TEST(ClackStream, HasEachCollisionAtItsSample) {
   }
 }
 
-/// Where slow motion eases in and out, each collision still has the sample at which it is seen.
 TEST(ClackStream, FollowsEasesStepByStep) {
-  Scene scene;
-  scene.system = article_system(3);
+  Scene scene = testing_support::article_scene(3);
   scene.time.to = Rational(7);
   scene.pacing.automatic_slow_motion = true;
   const auto log = make_pair_log(scene.system);

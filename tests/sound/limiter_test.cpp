@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -11,30 +10,10 @@
 
 namespace piblocks {
 namespace {
+using testing_support::interpolated_peak;
 using testing_support::true_peak;
 
 constexpr double kCeiling = 0.75;
-
-/// The highest of the signal between its samples, by the limiter's own interpolation.
-double interpolated_peak(const std::vector<double>& samples) {
-  constexpr int kHalf = 12;
-  constexpr int kPhases = 8;
-  constexpr double kBeta = 6;
-  double peak = 0;
-  for (int phase = 0; phase < kPhases; ++phase) {
-    std::vector<double> taps;
-    for (int tap = 1 - kHalf; tap <= kHalf; ++tap) {
-      const double distance = tap - double(phase) / kPhases;
-      taps.push_back(sinc(distance) * kaiser(distance / kHalf, kBeta));
-    }
-    for (std::size_t first = 0; first + taps.size() <= samples.size(); ++first) {
-      double value = 0;
-      for (std::size_t tap = 0; tap < taps.size(); ++tap) value += samples[first + tap] * taps[tap];
-      peak = std::max(peak, std::fabs(value));
-    }
-  }
-  return peak;
-}
 
 std::vector<double> limited(const std::vector<double>& samples) {
   Limiter limiter(kCeiling, 48000);
@@ -62,7 +41,9 @@ TEST(Limiter, LetsNothingOverTheCeilingAlsoBetweenSamples) {
         samples[i] = volume * std::sin(turn) * (i % 1000 < 300 ? 1 : 0.1);
       }
       const std::vector<double> out = limited(samples);
-      const double peak = interpolated_peak(out);
+      // By the limiter's own interpolation.
+      const double peak = interpolated_peak(
+          out, 12, [](double distance) { return sinc(distance) * kaiser(distance / 12, 6); });
       EXPECT_LT(20 * std::log10(peak / kCeiling), 0.02) << volume << " at " << frequency;
       EXPECT_LT(20 * std::log10(true_peak(out) / kCeiling), 0.2) << volume << " at " << frequency;
     }

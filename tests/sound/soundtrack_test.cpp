@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "sound/true_peak.hpp"
+#include "support/article_scene.hpp"
 
 namespace piblocks {
 namespace {
+using testing_support::article_scene;
 using testing_support::true_peak;
 
 constexpr double kRate_hz = Soundtrack::kRate_hz;
@@ -35,14 +37,7 @@ Track track_of(const Scene& scene, const std::vector<Stretch>& stretches,
       track.right.push_back(double(samples[2 * i + 1]));
     }
   }
-  EXPECT_EQ(track.left.size(), std::size_t(soundtrack.size()));
   return track;
-}
-
-Scene article(int digits) {
-  Scene scene;
-  scene.system = article_system(digits);
-  return scene;
 }
 
 /// The first sample of a window that is higher than half of its highest.
@@ -59,7 +54,7 @@ TEST(Soundtrack, BeginsEachClackAtItsCollision) {
   for (int digits = 1; digits <= 3; ++digits) {
     // So slow that no clack rings into the next.
     const Rational speed(1, digits == 3 ? 400 : 8);
-    const Scene scene = article(digits);
+    const Scene scene = article_scene(digits);
     const auto log = make_pair_log(scene.system);
     const Rational begin = digits == 3 ? Rational("348/100") : Rational(1);
     const Rational duration_s = digits == 3 ? 16 : 90;
@@ -82,12 +77,12 @@ TEST(Soundtrack, BeginsEachClackAtItsCollision) {
 }
 
 TEST(Soundtrack, IsSilentWithoutACollision) {
-  Scene scene = article(3);
+  Scene scene = article_scene(3);
   scene.system.bodies[1].velocity[0] = 1;
   const Track track = track_of(scene, {{0, 0, 1}}, 3);
   EXPECT_EQ(track.left, std::vector<double>(3 * 48000, 0.0));
   // And before the first one, and while the film stands still.
-  const Track early = track_of(article(3), {{0, 0, 1}, {1, 1, 0}}, 4);
+  const Track early = track_of(article_scene(3), {{0, 0, 1}, {1, 1, 0}}, 4);
   EXPECT_EQ(early.right, std::vector<double>(4 * 48000, 0.0));
 }
 
@@ -95,7 +90,7 @@ TEST(Soundtrack, NeverClips) {
   for (int digits : {1, 2, 3, 4, 6, 9, 20, 100}) {
     for (const Rational& speed : {Rational(1), Rational(1, 30), Rational(-1)}) {
       const Rational begin = speed == 1 ? 0 : speed < 0 ? 7 : Rational(345, 100);
-      const Track track = track_of(article(digits), {{0, begin, speed}}, 7);
+      const Track track = track_of(article_scene(digits), {{0, begin, speed}}, 7);
       for (const auto& channel : {track.left, track.right}) {
         EXPECT_LT(20 * std::log10(true_peak(channel)), -2.4) << digits << " at " << speed.get_str();
       }
@@ -105,7 +100,7 @@ TEST(Soundtrack, NeverClips) {
 
 TEST(Soundtrack, HearsTheTurnLouderThanTheFirstClackButNotTooLoud) {
   for (int digits : {3, 20}) {
-    const Track track = track_of(article(digits), {{0, 0, 1}}, 7);
+    const Track track = track_of(article_scene(digits), {{0, 0, 1}}, 7);
     const auto highest = [&](double from_s, double to_s) {
       double high = 0;
       for (auto i = std::size_t(from_s * kRate_hz); i < std::size_t(to_s * kRate_hz); ++i) {
@@ -121,7 +116,7 @@ TEST(Soundtrack, HearsTheTurnLouderThanTheFirstClackButNotTooLoud) {
 }
 
 TEST(Soundtrack, IsToTheSideWhereItHappens) {
-  Scene scene = article(1);
+  Scene scene = article_scene(1);
   constexpr std::size_t kBlocks = 2 * 48000;  // the blocks meet in the middle
   constexpr std::size_t kWall = 7 * 24000;
   scene.view.x = {Rational(-1, 10), Rational(61, 10)};
@@ -138,23 +133,23 @@ TEST(Soundtrack, IsToTheSideWhereItHappens) {
 }
 
 TEST(Soundtrack, SlowMotionMovesClacksApartAndLeavesEachAsItIs) {
-  const Track normal = track_of(article(1), {{0, 0, 1}}, 5);
-  const Track slow = track_of(article(1), {{0, 0, Rational(1, 2)}}, 9);
+  const Track normal = track_of(article_scene(1), {{0, 0, 1}}, 5);
+  const Track slow = track_of(article_scene(1), {{0, 0, Rational(1, 2)}}, 9);
   for (std::size_t i = 0; i < 40000; ++i) {
     ASSERT_NEAR(slow.left[4 * 48000 - 30 + i], normal.left[2 * 48000 - 30 + i], 1e-7) << i;
   }
 }
 
 TEST(Soundtrack, DoesNotDependOnHowItIsRead) {
-  const Track one = track_of(article(5), {{0, 3, 1}}, 1, 1);
-  const Track all = track_of(article(5), {{0, 3, 1}}, 1, 100000);
+  const Track one = track_of(article_scene(5), {{0, 3, 1}}, 1, 1);
+  const Track all = track_of(article_scene(5), {{0, 3, 1}}, 1, 100000);
   EXPECT_EQ(one.left, all.left);
   EXPECT_EQ(one.right, all.right);
 }
 
 TEST(Soundtrack, EndsWithoutAClick) {
   // 2 ms after the first clack.
-  const Track track = track_of(article(3), {{0, 0, 1}}, Rational(2002, 1000));
+  const Track track = track_of(article_scene(3), {{0, 0, 1}}, Rational(2002, 1000));
   EXPECT_EQ(track.left.size(), 96096u);
   EXPECT_LT(std::fabs(track.left.back()), 1e-4);
   EXPECT_LT(std::fabs(track.left[track.left.size() - 3]), 1e-3);
@@ -163,18 +158,18 @@ TEST(Soundtrack, EndsWithoutAClick) {
 TEST(Soundtrack, RefusesStretchesThatAreNotInOrder) {
   for (const std::vector<Stretch>& stretches :
        {std::vector<Stretch>{}, {{1, 0, 1}}, {{0, 0, 1}, {Rational(3, 2), 2, 1}, {1, 1, -1}}}) {
-    EXPECT_THROW(track_of(article(3), stretches, 3), UsageError);
+    EXPECT_THROW(track_of(article_scene(3), stretches, 3), UsageError);
   }
 }
 
 TEST(Soundtrack, TakesScenesAtTheLimits) {
-  Scene corner = article(20);
+  Scene corner = article_scene(20);
   corner.system.bodies[0].position[0] = Rational(1, 2);
-  Scene light = article(1);
+  Scene light = article_scene(1);
   light.system.bodies[1].mass = Rational(1, 1000000);
-  Scene huge = article(1);
+  Scene huge = article_scene(1);
   huge.system.bodies[1].mass = power(2, 1999);
-  Scene heavy = article(3);
+  Scene heavy = article_scene(3);
   heavy.system.bodies[0].mass = power(10, 400);
   heavy.system.bodies[1].mass = power(10, 404);
   for (const Scene& scene : {corner, light, huge, heavy}) {

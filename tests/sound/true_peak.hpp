@@ -9,27 +9,32 @@
 
 namespace piblocks::testing_support {
 
-inline double true_peak(const std::vector<double>& samples) {
-  constexpr int kReach = 32;
+/// @param tap_at  the weight of a sample so far away, up to `reach`
+template <typename Tap>
+double interpolated_peak(const std::vector<double>& samples, int reach, const Tap& tap_at) {
   constexpr int kPhases = 8;
   double peak = 0;
   for (int phase = 0; phase < kPhases; ++phase) {
     std::vector<double> taps;
-    for (int tap = -kReach + 1; tap <= kReach; ++tap) {
-      const double x = tap - double(phase) / kPhases;
-      const double angle = std::numbers::pi * x;
-      const double window = std::pow(std::cos(angle / 2 / (kReach + 1)), 2);
-      taps.push_back(window * (x == 0 ? 1 : std::sin(angle) / angle));
+    for (int tap = 1 - reach; tap <= reach; ++tap) {
+      taps.push_back(tap_at(tap - double(phase) / kPhases));
     }
-    for (std::size_t i = kReach; i + kReach < samples.size(); ++i) {
+    for (std::size_t first = 0; first + taps.size() <= samples.size(); ++first) {
       double value = 0;
-      for (std::size_t tap = 0; tap < taps.size(); ++tap) {
-        value += taps[tap] * samples[i + tap + 1 - kReach];
-      }
+      for (std::size_t tap = 0; tap < taps.size(); ++tap) value += samples[first + tap] * taps[tap];
       peak = std::max(peak, std::fabs(value));
     }
   }
   return peak;
+}
+
+inline double true_peak(const std::vector<double>& samples) {
+  constexpr int kReach = 32;
+  return interpolated_peak(samples, kReach, [](double x) {
+    const double angle = std::numbers::pi * x;
+    const double window = std::pow(std::cos(angle / 2 / (kReach + 1)), 2);
+    return window * (x == 0 ? 1 : std::sin(angle) / angle);
+  });
 }
 
 }  // namespace piblocks::testing_support

@@ -6,16 +6,15 @@
 #include <functional>
 
 #include "support/disc_certainty.hpp"
-#include "support/property.hpp"
 #include "support/random_discs.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::stress {
 namespace {
 
 void check_systems(const std::function<System(Random&)>& draw, double expected,
                    std::int64_t number = 2000) {
-  Random random(71);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(71);
   const std::int64_t systems = many(number);
   std::size_t certain = 0;
   std::int64_t complete = 0;
@@ -52,6 +51,18 @@ TEST(DiscCertaintyStress, OfDiscsInCells) {
     return system;
   };
   check_systems(draw, 30, 10);
+}
+
+/// Cells again, a disc that has a zone, and one that stays.
+TEST(DiscCertaintyStress, OfDiscsBesideOneThatStays) {
+  const auto draw = [](Random& random) {
+    System system = random_gas(random, 25);
+    system.walls = box(46, 16);
+    system.bodies.push_back({Rational(100), {20, 7}, {Rational(-1, 9), 0}, 6});
+    system.bodies.push_back({std::nullopt, {40, 5}, {0, 0}, 2});
+    return system;
+  };
+  check_systems(draw, 60, 1);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Systems on which the article's loop miscounts, divides by zero or never ends. Their totals alone
-// are in tests/physics/collision_log_test.cpp; here is every collision, and states at hard times.
+// Systems on which the article's loop miscounts, divides by zero or never ends: every collision,
+// and states at hard times. Totals of others are in tests/physics/collision_log_test.cpp.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 

@@ -2,17 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 
 #include "stress/random_system.hpp"
+#include "support/contains.hpp"
 #include "support/inelastic_checks.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
 
 TEST(RestitutionStress, RandomSystemsMoveAsStepByStep) {
-  Random random(11);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(11);
   for (std::int64_t i = 0; i < many(500) && !testing::Test::HasFailure(); ++i) {
     expect_like_steps(random_inelastic_system(random), random, i % 20 == 0 ? 300 : 60);
   }
@@ -47,17 +47,15 @@ void expect_own_times(const PairLog& log) {
       EXPECT_LE(gaps.y1, gaps.y2);
       EXPECT_EQ(log.blocks_collision(index).index, index);
     } catch (const UsageError& error) {  // all at the same time
-      EXPECT_NE(std::string(error.what()).find("at the same time"), std::string::npos);
+      EXPECT_TRUE(testing_support::contains(error.what(), "at the same time"));
     } catch (const SimulationError& error) {
-      EXPECT_NE(std::string(error.what()).find("beyond the range"), std::string::npos)
-          << error.what();
+      EXPECT_TRUE(testing_support::contains(error.what(), "beyond the range"));
     }
   }
 }
 
 TEST(RestitutionStress, NumbersOfAnySize) {
-  Random random(5);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(5);
   for (std::int64_t i = 0; i < many(200) && !testing::Test::HasFailure(); ++i) {
     TwoBlocks system =
         i % 2 == 0 ? stress::random_system(random) : stress::random_system_of_any_size(random);

@@ -111,4 +111,20 @@ Pixels random_frame(int width_px, int height_px, std::uint32_t seed) {
   return pixels;
 }
 
+Pixels transparent_frame(int width_px, int height_px, std::uint32_t seed) {
+  Pixels pixels(width_px, height_px);
+  std::mt19937 random(seed);
+  const auto upto = [&](std::uint32_t limit) {
+    return static_cast<std::uint32_t>(random() % (limit + 1));
+  };
+  for (std::uint32_t& word : pixels.words) {
+    const std::uint32_t alphas[] = {0, 255, 1 + upto(8), upto(255)};
+    const std::uint32_t alpha = alphas[upto(3)];
+    word = alpha << 24 | upto(alpha) << 16;
+    word |= upto(alpha) << 8;
+    word |= upto(alpha);
+  }
+  return pixels;
+}
+
 }  // namespace piblocks::testing_support

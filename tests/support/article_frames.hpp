@@ -28,4 +28,13 @@ Pixels article_frame(int width_px, int height_px, double time_s);
 /// Every pixel a colour of its own, always the same for a seed.
 Pixels random_frame(int width_px, int height_px, std::uint32_t seed);
 
+/// The same with alpha; no colour is greater than it.
+Pixels transparent_frame(int width_px, int height_px, std::uint32_t seed);
+
+inline ImageView with_alpha(const Pixels& pixels) {
+  ImageView view = pixels.view();
+  view.has_alpha = true;
+  return view;
+}
+
 }  // namespace piblocks::testing_support

@@ -39,16 +39,9 @@ Pixels pixels_of(const AVFrame& frame, const std::string& path) {
 }
 
 DecodedFrame decoded_frame(const AVFrame& frame, const AVStream& stream, const std::string& path) {
-  DecodedFrame decoded{
-      .time_s = Rational(frame.best_effort_timestamp) * to_rational(stream.time_base),
-      .key_frame = is_key_frame(frame),
-      .rgb = pixels_of(frame, path),
-      .luma = {}};
-  for (int y = 0; y < frame.height && frame.format == AV_PIX_FMT_YUV420P; ++y) {
-    const std::uint8_t* row = frame.data[0] + y * frame.linesize[0];
-    decoded.luma.insert(decoded.luma.end(), row, row + frame.width);
-  }
-  return decoded;
+  return {.time_s = Rational(frame.best_effort_timestamp) * to_rational(stream.time_base),
+          .key_frame = is_key_frame(frame),
+          .rgb = pixels_of(frame, path)};
 }
 
 AvCodecContextPtr open_decoder(const AVStream& stream) {
@@ -97,8 +90,7 @@ DecodedStream decode_video(const std::filesystem::path& path,
   };
   while (av_read_frame(input.get(), packet.get()) >= 0) {
     if (packet->stream_index == index) {
-      result.packets.push_back({packet->pts, packet->dts, static_cast<std::size_t>(packet->size),
-                                (packet->flags & AV_PKT_FLAG_KEY) != 0});
+      result.packets.push_back({packet->pts, packet->dts});
       check_av(avcodec_send_packet(decoder.get(), packet.get()), "decode", path.string());
       take_frames();
     }

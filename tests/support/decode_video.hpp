@@ -29,14 +29,11 @@ struct DecodedFrame {
   Rational time_s;  ///< of its first appearance
   bool key_frame = false;
   Pixels rgb;
-  std::vector<std::uint8_t> luma;  ///< width times height samples
 };
 
 struct DecodedPacket {
   std::int64_t pts = 0;  ///< in units of the stream's time base
   std::int64_t dts = 0;
-  std::size_t size_bytes = 0;
-  bool key_frame = false;
 };
 
 /// What is true of the video as a whole.

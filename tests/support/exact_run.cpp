@@ -1,6 +1,5 @@
 #include <piblocks/error.hpp>
 
-#include <algorithm>
 #include <cassert>
 #include <optional>
 #include <string>

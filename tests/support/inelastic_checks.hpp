@@ -7,7 +7,6 @@
 #include <piblocks/two_blocks.hpp>
 
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "physics/impact.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
-#include "support/property.hpp"
+#include "support/traced_random.hpp"
 
 namespace piblocks::oracle {
 namespace {
@@ -122,8 +122,7 @@ TEST_P(ArticleSystem, RoutesAgree) {
 INSTANTIATE_TEST_SUITE_P(Digits, ArticleSystem, testing::Values(1, 2, 3, 4));
 
 TEST(Oracle, RoutesAgreeForRandomSystems) {
-  Random random(2024);
-  SCOPED_TRACE(random.trace());
+  TracedRandom random(2024);
   for (int trial = 0; trial < 400; ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
     const TwoBlocks system = random_system(random);

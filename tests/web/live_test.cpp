@@ -11,17 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "support/script_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "web/facts.hpp"
 
 namespace piblocks::web {
 namespace {
 
-Script script_of(const std::string& text) {
-  ScriptBuilder builder;
-  builder.read_text("scene", text);
-  return builder.build();
-}
+using testing_support::script_of;
 
 const std::string kSmall = "view.size = [320, 180]\n";
 const std::string kDiagrams = kSmall + "view.theme = \"lecture\"\nshow.panels = [\"velocity\"]\n";

@@ -93,8 +93,7 @@ std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& 
     throw UsageError(
         fmt::format("{}: the loupe enlarges the gap beside what is immovable, and the view does "
                     "not show its face; let view.x contain position {} and what is beside it, or "
-                    "leave the loupe "
-                    "out",
+                    "leave the loupe out",
                     kLoupeKey, to_text(blocks.side * blocks.wall_face)));
   }
   const double most_px = most_gap_px(context);

@@ -82,9 +82,7 @@ class LoupePlacer {
                    style::kMaxLoupeGap * short_side() + layout.width_px(*gap_.between) +
                    layout.width_px(gap_.outer);
     if (show.has(Overlay::velocities)) right += kVelocityOverhang * short_side();
-    if (!labelled_above(context_, layout).empty()) {
-      right += kMassOverhang * short_side();
-    }
+    if (!labelled_above(context_, layout).empty()) right += kMassOverhang * short_side();
     return right + loupe_style::kOutside * short_side();
   }
 
@@ -108,9 +106,7 @@ class LoupePlacer {
     const Layout& layout = context_.layout;
     double above = loupe_style::kOutside;
     if (show.has(Overlay::velocities)) above += kArrowRoom;
-    if (!labelled_above(context_, layout).empty()) {
-      above += kMassRoom;
-    }
+    if (!labelled_above(context_, layout).empty()) above += kMassRoom;
     return layout.top_px() - above * short_side();
   }
 

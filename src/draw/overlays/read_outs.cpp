@@ -198,7 +198,7 @@ class Momenta {
   Momenta(const LayoutContext& context, int digits)
       : system_(context.scene.system),
         // The heaviest body has the most momentum when it has all the energy.
-        most_squared_(twice_energy(system_) * heaviest(system_)),
+        most_squared_(twice_energy(system_) * heaviest_mass(system_)),
         scale_(root_magnitude_of(most_squared_), digits),
         most_(scale_.largest.mantissa *
               (scale_.is_plain ? to_double(power_of_ten(scale_.largest.exponent)) : 1)) {
@@ -231,12 +231,6 @@ class Momenta {
   }
 
  private:
-  static Rational heaviest(const System& system) {
-    Rational most = 0;
-    for (const Body& body : system.bodies) most = std::max(most, body.mass.value_or(0));
-    return most;
-  }
-
   /// Masses may be beyond the range of a double, and so may these factors.
   mpf_class factor_of(const Rational& mass) const {
     if (most_squared_ == 0) return 0;
@@ -339,19 +333,17 @@ ReadOutRows::ReadOutRows(const LayoutContext& context)
   std::string characters(kNumberCharacters);
   for (const ReadOut& read_out : read_outs) characters += read_out.widest;
   widths_ = TextWidths(context.font, characters);
-  const auto width_em = [&](const ReadOut& read_out) {
-    return context.font.width_em(read_out.widest);
-  };
-  const ReadOut& widest = *std::ranges::max_element(read_outs, {}, width_em);
-  if (width_em(widest) * text_px_ > room_px) {
+  std::vector<double> widths;
+  for (const ReadOut& read_out : read_outs) {
+    widths.push_back(context.font.width_em(read_out.widest) * text_px_);
+  }
+  const auto widest = std::ranges::max_element(widths);
+  if (*widest > room_px) {
     throw UsageError(
         fmt::format("show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make "
                     "the frame wider",
-                    widest.name, room_px));
+                    read_outs[std::size_t(widest - widths.begin())].name, room_px));
   }
-  std::vector<double> widths;
-  widths.reserve(read_outs.size());
-  for (const ReadOut& read_out : read_outs) widths.push_back(width_em(read_out) * text_px_);
   const double gap = kBetweenReadOuts * text_px_;
   std::size_t first = 0;
   while (first < read_outs.size()) {

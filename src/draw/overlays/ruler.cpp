@@ -14,43 +14,11 @@ namespace {
 
 /// Fewer give no scale.
 constexpr int kLeastFigures = 2;
+constexpr double kLeastGap_em = 1.0;  ///< between figures
 // In fractions of the frame's shorter side.
 constexpr double kBelowBlocks = 0.012;  ///< where there is no floor
 constexpr double kTickLength = 0.012;
 constexpr double kBelowTick = 0.01;
-// In ems.
-constexpr double kBesideWall_em = 0.25;
-constexpr double kLeastGap_em = 1.0;  // between figures
-
-/// What the ruler measures, and where its figures may be.
-struct RulerRange {
-  double left = 0;  ///< in the scene
-  double right = 0;
-  double first_px = 0;
-  double end_px = 0;
-};
-
-RulerRange range_of(const DrawingContext& context, bool are_figures_below_walls) {
-  const View& view = context.scene.view;
-  const LineWalls walls = line_walls(context.scene.system);
-  const double beside_px = kBesideWall_em * context.sizes.text;
-  RulerRange range{to_double(view.x.low), to_double(view.x.high), 0, double(view.width_px)};
-  const auto foot_px = [&](const Rational& face) {
-    return context.layout.at(to_double(face), 0).x;
-  };
-  if (walls.left) {
-    range.left = std::max(range.left, to_double(*walls.left));
-    if (!are_figures_below_walls) range.first_px = foot_px(*walls.left) + beside_px;
-  }
-  if (walls.right) {
-    range.right = std::min(range.right, to_double(*walls.right));
-    if (!are_figures_below_walls) range.end_px = foot_px(*walls.right) - beside_px;
-  }
-  range.first_px = std::max(context.sizes.margin, range.first_px);
-  range.end_px = std::min(
-      {range.end_px, view.width_px - context.sizes.margin, context.layout.content_right_px});
-  return range;
-}
 
 }  // namespace
 
@@ -80,7 +48,10 @@ Drawable ruler(const DrawingContext& context) {
   }
   // Figures beside the foot of the wall are not below it.
   const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.wall_bottom_px;
-  const auto [left, right, first_px, end_px] = range_of(context, are_below_wall);
+  const Columns room = are_below_wall ? text_columns(context) : text_columns_between_walls(context);
+  const Range range = seen_axis(scene.system, scene.view);
+  const double left = to_double(range.low);
+  const double right = to_double(range.high);
   const FigureAxis axis{
       .low = left, .high = right, .em = size_px / layout.scale, .gap_em = kLeastGap_em};
   const Ticks ticks =
@@ -99,7 +70,7 @@ Drawable ruler(const DrawingContext& context) {
     const std::string text = tick_text(value, ticks.step);
     const double half_px = context.font.width_em(text) * size_px / 2;
     // Beside its mark it would name another place.
-    if (x - half_px < first_px || x + half_px > end_px) continue;
+    if (x - half_px < room.left || x + half_px > room.right) continue;
     ++figures;
     items.emplace_back(TextItem{
         {}, {x - half_px, baseline}, text, size_px, context.palette.muted, context.font.face()});

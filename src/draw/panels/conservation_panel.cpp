@@ -37,14 +37,12 @@ struct Momenta {
     if (energy == 0) return;
     Rational total = 0;
     Rational masses = 0;
-    Rational heaviest = 0;
     for (const Body& body : system.bodies) {
       if (!body.mass) continue;
       total += *body.mass * body.velocity[0];
       masses += *body.mass;
-      heaviest = std::max(heaviest, *body.mass);
     }
-    const mpf_class largest = root_of(energy * heaviest);
+    const mpf_class largest = root_of(energy * heaviest_mass(system));
     mpf_class unit(abs(total), largest.get_prec());
     if (unit < kLeastUnit * largest) unit = largest;
     for (std::size_t i = 0; i < factors.size(); ++i) {
@@ -260,10 +258,8 @@ class ConservationPanel {
     const std::size_t sum = moving_rows_;
     diagram_.box(bar_of(sum, momenta_.sum), palette.muted);
     if (!has_figures_) return;
-    const std::string text = text_of(momenta_.sum);
-    const double width = widths_.width_em(text) * diagram_.text_px();
-    diagram_.formula(diagram_.setter().digits(text),
-                     {inside().right() - width, baseline(row_top(sum), row_px_)}, 0, palette.muted);
+    diagram_.formula(diagram_.setter().digits(text_of(momenta_.sum)),
+                     {inside().right(), baseline(row_top(sum), row_px_)}, 1, palette.muted);
   }
 
   /// Parts of the bar from the last block to the first, which has what is left.

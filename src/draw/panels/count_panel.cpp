@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "draw/number_text.hpp"
 #include "draw/panels/count_curve.hpp"
 #include "draw/panels/count_inset.hpp"
-#include "draw/panels/count_scale.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
@@ -36,11 +36,6 @@ constexpr double kFilled = 0.8;
 /// Items above the filled area: the curve.
 constexpr std::size_t kWithoutInset = 1;
 
-Formula title_of_counts(const FormulaSetter& set, bool is_half) {
-  return set.text(is_half ? "Half of the collisions come before the turn"
-                          : "The count jumps at the turn");
-}
-
 /// Whether the turn is shown and parts the collisions, and as many come before it as after.
 struct TurnFacts {
   TurnFacts(const Log& log, const Span& span) {
@@ -62,8 +57,9 @@ std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFa
   if (is_endless(log) && log.count_at(span_of(context.scene, log).to) == log.last()) {
     return {set.text("Infinitely many collisions"), set.text("Collisions")};
   }
-  if (turn.is_shown) wordings.push_back(title_of_counts(set, turn.is_half));
+  if (turn.is_shown && !turn.is_half) wordings.push_back(set.text("The count jumps at the turn"));
   if (turn.is_half) {
+    wordings.push_back(set.text("Half of the collisions come before the turn"));
     wordings.push_back(set.text("Half come before the turn"));
     wordings.push_back(set.text("Half before the turn"));
   }
@@ -71,6 +67,43 @@ std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFa
   wordings.push_back(set.text("Collisions"));
   return wordings;
 }
+
+/// The axis of counts of any size, beside that of time.
+struct CountScale {
+  CountScale(const Log& log, const Span& span, int count_base)
+      : base(count_base),
+        low(std::min(Integer(0), log.count_at(span.from))),
+        high(std::max(Integer(low + 1), log.count_at(span.to))) {}
+
+  /// @param least  counts between figures
+  void place_figures(const Rational& least) {
+    RoundFactor round{1, std::max(0L, magnitude_of(least).exponent)};
+    while (round.value() < least) round = round.next();
+    Rational step = round.value();
+    if (base != kUsualBase) {
+      step = 1;
+      while (step < least) step *= base;
+    }
+    values.clear();
+    for (Integer k = ceil(low / step); k * step <= high; k += 1) values.emplace_back(k * step);
+    exponent = round.exponent;
+  }
+
+  std::string text(const Integer& value) const {
+    constexpr long kMostPlain = 1'000'000;
+    if (base != kUsualBase || high < kMostPlain) return count_text(value, base);
+    if (value == 0) return "0";
+    const Rational multiple = value / power_of_ten(exponent);
+    const std::string power = power_text(exponent);
+    return multiple == 1 ? power : fixed_text(to_double(multiple), 0) + "×" + power;
+  }
+
+  int base;
+  Integer low;
+  Integer high;
+  std::vector<Integer> values;  ///< with figures
+  long exponent = 0;            ///< of ten, of the step between them
+};
 
 class CountPanel {
  public:

@@ -56,8 +56,7 @@ DigitMargin::DigitMargin(int base, unsigned long places)
   const mpfr_prec_t bits = 3 * bits_of(scale_.get_num()) + 2 * kSpare_bits;
   const Real scaled_pi = Real::pi(bits) * Real(bits, scale_);
   const Real rays = Real::pi(bits) / theta_of(scale_, bits);
-  whole_ = floor_of([](mpfr_prec_t any) { return Real::pi(any); }, scale_,
-                    bits_of(scale_.get_num()) + 2);
+  whole_ = floor_of(Real::pi, scale_, bits_of(scale_.get_num()) + 2);
   fraction_ = (scaled_pi - whole_).to_rational();
   excess_ = (rays - scaled_pi).to_rational();
   if (places == 0) excess_ = 1 - fraction_;  // pi/theta is 4
@@ -65,8 +64,7 @@ DigitMargin::DigitMargin(int base, unsigned long places)
 
 std::string DigitMargin::scaled_pi(std::size_t digits) const {
   const Rational scale = scale_ * power_of(base_, digits);
-  const auto pi = [](mpfr_prec_t bits) { return Real::pi(bits); };
-  return text_of(floor_of(pi, scale, bits_of(scale.get_num()) + 2), base_, digits);
+  return text_of(floor_of(Real::pi, scale, bits_of(scale.get_num()) + 2), base_, digits);
 }
 
 std::string DigitMargin::pi_over_theta(std::size_t digits) const {

@@ -15,13 +15,9 @@ namespace {
 constexpr double kTitleHeight = 1.5;
 constexpr double kTitleBaseline = 0.73;
 constexpr double kAround = 0.5;
-
-// Of the time axis, in ems.
-constexpr double kBelow = 1.7;
-constexpr double kTimeTick_em = 0.25;
-constexpr double kTimeBaseline_em = 1.4;
-constexpr double kBetweenTicks = 4;
-constexpr double kLeastGap = 0.6;  // between figures
+constexpr double kTick = 0.25;
+constexpr double kFigureBaseline = 1.4;
+constexpr double kLeastGap = 0.6;  // between figures of time
 constexpr double kSlack_px = 0.5;
 
 }  // namespace
@@ -107,6 +103,12 @@ void Diagram::formula(const Formula& formula, const Point& at, double anchor, co
   formula.add_to(items_, next_id(), {left, at.y}, text_px_, color);
 }
 
+void Diagram::tick(const Point& at, const std::string& figure, double figure_x) {
+  line({at, {at.x, at.y + kTick * text_px_}}, palette_.muted);
+  if (figure.empty()) return;
+  text(figure, {figure_x, at.y + kFigureBaseline * text_px_}, 0.5, palette_.muted);
+}
+
 TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)
     : span_(span_of(context.scene, context.log)),
       from_(to_double(span_.from)),
@@ -127,7 +129,7 @@ TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double
   const double em = diagram.text_px();
   const double inside_left = plot_.x;
   const double inside_right = plot_.right();
-  plot_.height -= kBelow * em;
+  plot_.height -= kBelowAxis_em * em;
   plot_.x += indent_em * em;
   plot_.width -= indent_em * em;
   // Figures are centred on their marks, and those at the ends need room beside the axis. Making
@@ -155,7 +157,7 @@ void TimeAxis::place_figures(const Font& font, double em) {
   scale_ = plot_.width / length_;
   const FigureAxis axis{
       .low = from_, .high = from_ + length_, .em = em / scale_, .gap_em = kLeastGap};
-  Ticks ticks = ticks_of(axis.low, axis.high, kBetweenTicks * axis.em);
+  Ticks ticks = ticks_of(axis.low, axis.high, kBetweenTicks_em * axis.em);
   // One figure alone gives no scale.
   if (ticks.values.size() < 2) ticks = ticks_of(axis.low, axis.high, axis.em);
   ticks = with_room_for_figures(std::move(ticks), axis, font);
@@ -168,14 +170,8 @@ void TimeAxis::place_figures(const Font& font, double em) {
 }
 
 void TimeAxis::add_base(Diagram& diagram) const {
-  const double em = diagram.text_px();
-  const Color& color = diagram.palette().muted;
-  diagram.line({{plot_.x, bottom()}, {plot_.right(), bottom()}}, color);
-  for (const Figure& figure : figures_) {
-    diagram.line({{figure.x, bottom()}, {figure.x, bottom() + kTimeTick_em * em}}, color);
-    if (figure.text.empty()) continue;
-    diagram.text(figure.text, {figure.x, bottom() + kTimeBaseline_em * em}, 0.5, color);
-  }
+  diagram.line({{plot_.x, bottom()}, {plot_.right(), bottom()}}, diagram.palette().muted);
+  for (const Figure& figure : figures_) diagram.tick({figure.x, bottom()}, figure.text, figure.x);
 }
 
 RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, const Point& present) const {

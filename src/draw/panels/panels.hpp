@@ -69,6 +69,10 @@ struct Circle {
   std::vector<Point> arc(double from, double to) const;
 };
 
+// Of axes with figures below them, in ems.
+inline constexpr double kBelowAxis_em = 1.7;
+inline constexpr double kBetweenTicks_em = 4;
+
 /// A panel's title, its items that stay, and forms for those that move.
 class Diagram {
  public:
@@ -104,6 +108,8 @@ class Diagram {
   /// @param anchor  the part of the text's width that is left of `at`: 0, 0.5 or 1
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
   void formula(const Formula& formula, const Point& at, double anchor, const Color& color);
+  /// A tick of an axis, and a figure below it. @param figure_x  of its middle
+  void tick(const Point& at, const std::string& figure, double figure_x);
 
   // The n-th of the things that move, which are above all that stays.
   ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }

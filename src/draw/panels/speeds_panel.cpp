@@ -18,11 +18,6 @@ constexpr int kLeastBins = 8;
 constexpr int kMostBins = 24;
 /// The axis ends at this multiple of the speed of mean energy; few are faster.
 constexpr double kFastest = 2.6;
-// In ems.
-constexpr double kBelow_em = 1.7;
-constexpr double kTick_em = 0.25;
-constexpr double kFigure_em = 1.4;
-constexpr double kBetweenTicks_em = 4;
 /// Part of the diagram's height that the curve's maximum takes.
 constexpr double kCurveHeight = 0.62;
 constexpr int kCurvePoints = 160;
@@ -71,11 +66,6 @@ class Maxwell {
 
 double energy_of(const System& system) { return to_double(twice_energy(system)) / 2; }
 
-std::size_t movable(const System& system) {
-  return std::size_t(
-      std::ranges::count_if(system.bodies, [](const Body& body) { return body.mass.has_value(); }));
-}
-
 class SpeedsPanel {
  public:
   SpeedsPanel(const DrawingContext& context, const PanelPlace& place)
@@ -85,7 +75,7 @@ class SpeedsPanel {
         plot_(diagram_.inside()),
         fastest_(kFastest * maxwell_.usual_speed()),
         bins_(std::clamp(int(std::sqrt(maxwell_.movable())), kLeastBins, kMostBins)) {
-    plot_.height -= kBelow_em * diagram_.text_px();
+    plot_.height -= kBelowAxis_em * diagram_.text_px();
     add_axis(context);
     add_curve();
     diagram_.finish();
@@ -120,7 +110,7 @@ class SpeedsPanel {
   static std::vector<Formula> titles(const DrawingContext& context) {
     const System& system = context.scene.system;
     const double energy = energy_of(system);
-    if (movable(system) < kLeastBodies || energy <= 0) {
+    if (masses_of(system).size() < kLeastBodies || energy <= 0) {
       throw UsageError(
           fmt::format("show.panels: 'speeds' needs at least {} bodies of finite mass, and one that "
                       "moves; leave the diagram out",
@@ -143,16 +133,13 @@ class SpeedsPanel {
 
   void add_axis(const DrawingContext& context) {
     const double em = diagram_.text_px();
-    const double bottom = plot_.bottom();
-    const Color& muted = diagram_.palette().muted;
     const Ticks ticks = ticks_of(0, fastest_, kBetweenTicks_em * em * fastest_ / plot_.width);
     for (const double value : ticks.values) {
       const double x = plot_.x + value / fastest_ * plot_.width;
       const std::string text = tick_text(value, ticks.step);
       const double half = context.font.width_em(text) * em / 2;
-      diagram_.line({{x, bottom}, {x, bottom + kTick_em * em}}, muted);
-      if (x + half > plot_.right()) continue;
-      diagram_.text(text, {std::max(x, plot_.x + half), bottom + kFigure_em * em}, 0.5, muted);
+      const bool has_room = x + half <= plot_.right();
+      diagram_.tick({x, plot_.bottom()}, has_room ? text : "", std::max(x, plot_.x + half));
     }
   }
 

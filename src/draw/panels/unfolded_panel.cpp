@@ -83,10 +83,8 @@ class UnfoldedPanel {
     if (!is_seen) return;
     const double x = map_.x_at(shown.time);
     add_line(x, items);
-    for (const DiscItem& dot : dots_) {
-      const auto k = static_cast<std::size_t>(dot.id) - static_cast<std::size_t>(dots_.front().id);
-      if (first_dot_ + k >= next) break;
-      items.emplace_back(dot);
+    for (std::size_t k = 0; k < dots_.size() && first_dot_ + k < next; ++k) {
+      items.emplace_back(dots_[k]);
     }
     if (x < least_x_ || x > most_x_) return;
     const Palette& palette = diagram_.palette();

@@ -57,6 +57,12 @@ std::vector<Formula> words_of(const FormulaSetter& set, bool are_seen) {
           set.text("arc, ") + arc + set.text(", too small to see")};
 }
 
+bool is_ellipse_to_scale(const TwoBlocks& system) {
+  const Rational ratio = system.red.mass / system.blue.mass;
+  const Rational most = kMostLongEllipse * kMostLongEllipse;
+  return ratio <= most && ratio >= 1 / most;
+}
+
 /// Twice the kinetic energy of a block.
 Formula energy_name(const FormulaSetter& set, const char* index) {
   return set.lowered(set.italic("m"), set.text(index)) +
@@ -300,12 +306,6 @@ VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set)
   const double above = kAboveCircle * em + (rest < 2 * kWordsStep * em ? rest / 2 : 0);
   const double radius = diameter / 2;
   return {inside, {{inside.x + left + radius, inside.y + above + radius}, radius}, em};
-}
-
-bool is_ellipse_to_scale(const TwoBlocks& system) {
-  const Rational ratio = system.red.mass / system.blue.mass;
-  const Rational most = kMostLongEllipse * kMostLongEllipse;
-  return ratio <= most && ratio >= 1 / most;
 }
 
 VelocityLabels label_velocities(const DrawingContext& context, const VelocityPlace& place,

@@ -37,8 +37,6 @@ VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set)
 
 /// The greatest ratio of the axes that is drawn. A longer ellipse is drawn with this ratio.
 inline constexpr long kMostLongEllipse = 12;
-/// Whether the ellipse is drawn to scale.
-bool is_ellipse_to_scale(const TwoBlocks& system);
 
 /// Labels: the names of the axes, "no more hits here", the marked arc's explanation, and the
 /// ellipse's explanation. Labels without room are left out.

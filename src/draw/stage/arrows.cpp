@@ -70,48 +70,39 @@ struct Figure {
   double& left() { return item.origin.x; }
 };
 
-/// Where figures may be, and how far they stay apart.
-struct FigureRoom {
-  double left = 0;
-  double right = 0;
-  double gap = 0;
-
-  double size() const { return right - left; }
-
-  /// Moves figures, in the order from left to right, as little as keeps them apart and in the room:
-  /// two that overlap give way by half of that. (Means of blocks that pool, as in isotonic
-  /// regression.)
-  void keep_apart(std::vector<Figure>& figures) const {
-    struct Group {
-      double sum;  ///< of where its figures would be if those left of them had no width
-      double count;
-      double mean() const { return sum / count; }
-    };
-    std::vector<Group> groups;
-    double before = 0;
-    for (Figure& figure : figures) {
-      figure.left() = std::max(figure.left(), left);
-      groups.push_back({figure.left() - before, 1});
-      while (groups.size() > 1 && groups[groups.size() - 2].mean() > groups.back().mean()) {
-        groups[groups.size() - 2].sum += groups.back().sum;
-        groups[groups.size() - 2].count += groups.back().count;
-        groups.pop_back();
-      }
-      before += figure.width + gap;
+/// Moves figures, in the order from left to right, as little as keeps them apart and in the room:
+/// two that overlap give way by half of that. (Means of blocks that pool, as in isotonic
+/// regression.)
+void keep_apart(std::vector<Figure>& figures, const Columns& room, double gap) {
+  struct Group {
+    double sum;  ///< of where its figures would be if those left of them had no width
+    double count;
+    double mean() const { return sum / count; }
+  };
+  std::vector<Group> groups;
+  double before = 0;
+  for (Figure& figure : figures) {
+    figure.left() = std::max(figure.left(), room.left);
+    groups.push_back({figure.left() - before, 1});
+    while (groups.size() > 1 && groups[groups.size() - 2].mean() > groups.back().mean()) {
+      groups[groups.size() - 2].sum += groups.back().sum;
+      groups[groups.size() - 2].count += groups.back().count;
+      groups.pop_back();
     }
-    const double last = std::max(left, right - (before - gap));
-    before = 0;
-    auto next = figures.begin();
-    for (const Group& group : groups) {
-      const double place = std::clamp(group.mean(), left, last);
-      for (double n = 0; n < group.count; ++n, ++next) {
-        const bool moves = group.count > 1 || place != group.mean();
-        if (moves) next->left() = place + before;
-        before += next->width + gap;
-      }
+    before += figure.width + gap;
+  }
+  const double last = std::max(room.left, room.right - (before - gap));
+  before = 0;
+  auto next = figures.begin();
+  for (const Group& group : groups) {
+    const double place = std::clamp(group.mean(), room.left, last);
+    for (double n = 0; n < group.count; ++n, ++next) {
+      const bool moves = group.count > 1 || place != group.mean();
+      if (moves) next->left() = place + before;
+      before += next->width + gap;
     }
   }
-};
+}
 
 class BlockArrows {
  public:
@@ -124,15 +115,13 @@ class BlockArrows {
         line_px_(context.sizes.data_line),
         short_side_(context.sizes.short_side),
         text_px_(context.sizes.text) {
-    const std::vector<Body>& bodies = context.scene.system.bodies;
-    Rational most = 0;
-    for (std::size_t i = bodies.size(); i-- > 0;) {
-      if (!bodies[i].mass) continue;
-      moving_.push_back(i);
-      most = std::max(most, *bodies[i].mass);
+    const System& system = context.scene.system;
+    for (std::size_t i = system.bodies.size(); i-- > 0;) {
+      if (system.bodies[i].mass) moving_.push_back(i);
     }
     // The heaviest block's speed when it has all the energy. It may be below the range of a double.
-    if (most > 0) usual_speed_ = root_of(twice_energy(context.scene.system) / most);
+    const Rational most = heaviest_mass(system);
+    if (most > 0) usual_speed_ = root_of(twice_energy(system) / most);
     place_foot(context);
     place_figures(context);
     find_longest(context);
@@ -178,25 +167,18 @@ class BlockArrows {
   }
 
   void place_figures(const DrawingContext& context) {
-    const LineWalls walls = line_walls(context.scene.system);
-    const double margin = context.sizes.margin;
-    const double beside_wall = kBetweenFigures_em / 2 * text_px_;
-    room_ = {margin, std::min(context.scene.view.width_px - margin, layout_.content_right_px),
-             kBetweenFigures_em * text_px_};
-    const auto face = [&](const Rational& x) { return layout_.at(to_double(x), 0).x; };
-    if (walls.left) room_.left = std::max(room_.left, face(*walls.left) + beside_wall);
-    if (walls.right) room_.right = std::min(room_.right, face(*walls.right) - beside_wall);
+    room_ = text_columns_between_walls(context);
     const auto width = [&](std::size_t count) {
       return (double(count) * widths_.width_em(kUsualFigure) +
               double(count - 1) * kBetweenFigures_em) *
              text_px_;
     };
-    has_figures_ = !moving_.empty() && room_.size() >= width(moving_.size());
+    has_figures_ = !moving_.empty() && room_.width() >= width(moving_.size());
     if (has_figures_ || moving_.size() > kAlwaysFigures || moving_.empty()) return;
     throw UsageError(
         fmt::format("show.overlays: the velocities need {:.0f} pixels beside the wall, and there "
                     "are {:.0f}; leave out 'velocities', or make the frame wider",
-                    width(moving_.size()), std::max(0.0, room_.size())));
+                    width(moving_.size()), std::max(0.0, room_.width())));
   }
 
   void find_longest(const DrawingContext& context) {
@@ -229,7 +211,7 @@ class BlockArrows {
     std::ranges::sort(figures, {}, [&](const Figure& figure) {
       return shown.state.bodies[figure.body].position[0];
     });
-    room_.keep_apart(figures);
+    keep_apart(figures, room_, kBetweenFigures_em * text_px_);
     return figures;
   }
 
@@ -251,7 +233,7 @@ class BlockArrows {
   double text_px_;
   std::vector<std::size_t> moving_;  ///< bodies that collisions move, from the last to the first
   bool has_figures_ = true;
-  FigureRoom room_;
+  Columns room_;        ///< of figures
   double foot_px_ = 0;  ///< arrows and figures are above it
   double longest_px_ = 0;
 };

@@ -177,16 +177,15 @@ class LineMarks {
       : layout_(context.layout),
         colors_(context.colors),
         system_(context.scene.system),
-        order_(from_left_to_right(system_)) {
-    marks_.emplace(context, most_reach_px(labelled_above(context, layout_)),
-                   narrowest_px(line_walls(system_)) / 2);
-  }
+        order_(from_left_to_right(system_)),
+        marks_(context, most_reach_px(labelled_above(context, layout_)),
+               narrowest_px(line_walls(system_)) / 2) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     for (std::size_t n = 0; n < shown.hits.size(); ++n) {
       const Hit& hit = shown.hits[n];
       const Contact contact = contact_at(hit.pair, layout_.at(hit.contact).x, shown);
-      marks_->add_arc(nth(ItemId::hits, n), hit.age_s, contact, items);
+      marks_.add_arc(nth(ItemId::hits, n), hit.age_s, contact, items);
     }
     if (shown.hits_per_s <= kMaxHitsPerSecond) return;
     std::vector<Contact> contacts;
@@ -194,7 +193,7 @@ class LineMarks {
       contacts.push_back(contact_at(pair, present_x_px(pair, shown), shown));
     }
     std::ranges::sort(contacts, {}, [](const Contact& contact) { return contact.at.x; });
-    marks_->add_glow(shown.hits_per_s, contacts, items);
+    marks_.add_glow(shown.hits_per_s, contacts, items);
   }
 
  private:
@@ -249,7 +248,7 @@ class LineMarks {
   std::vector<BlockColors> colors_;
   System system_;
   std::vector<std::size_t> order_;  ///< of bodies, from left to right
-  std::optional<HitMarks> marks_;
+  HitMarks marks_;
 };
 
 }  // namespace

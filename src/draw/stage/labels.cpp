@@ -116,9 +116,8 @@ class LabelRoom {
  public:
   explicit LabelRoom(const DrawingContext& context)
       : layout_(context.layout),
-        left_(context.sizes.margin),
-        right_(std::min(context.scene.view.width_px - context.sizes.margin,
-                        context.layout.content_right_px)),
+        left_(text_columns(context).left),
+        right_(text_columns(context).right),
         pad_(kBelowLabel * context.sizes.short_side) {}
 
   void add(Label label, const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -188,11 +187,8 @@ class LabelRoom {
 
 void check_room(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
   if (texts.fits(body)) return;
-  const double margin = context.sizes.margin;
-  const double right =
-      std::min(context.scene.view.width_px - margin, context.layout.content_right_px);
   const bool is_too_wide =
-      context.font.width_em(texts.text(body)) * context.sizes.mass > right - margin;
+      context.font.width_em(texts.text(body)) * context.sizes.mass > text_columns(context).width();
   if (is_too_wide || !texts.can_be_above(body)) throw_no_room(context, texts, body);
   const double needed = label_room_px(context.sizes);
   if (context.layout.above_px + kRounded_px >= needed) return;
@@ -203,26 +199,33 @@ void check_room(const DrawingContext& context, const BlockTexts& texts, std::siz
       std::max(0.0, context.layout.above_px), texts.is_mass(body) ? "'masses'" : "the label"));
 }
 
-Label label_of(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
-  if (!texts.is_mass(body)) check_readable(context, "body.label", texts.text(body));
-  check_room(context, texts, body);
-  const Layout& layout = context.layout;
+/// @param baseline  on the body, or above it
+Label label_at(const DrawingContext& context, ItemId id, std::size_t body, const std::string& text,
+               bool is_inside, double baseline) {
   const BlockColors& colors = context.colors[body];
   const double size_px = context.sizes.mass;
-  const double height = layout.height_px(body);
-  const bool is_inside = texts.fits(body);
-  const double baseline = is_inside
-                              ? layout.floor_px - height / 2 + kHalfFigure_em * size_px
-                              : layout.floor_px - height - kBelowLabel * context.sizes.short_side;
   return {body,
-          {nth(ItemId::masses, layout.shapes.size() - 1 - body),
-           {-context.font.width_em(texts.text(body)) * size_px / 2, baseline},
-           texts.text(body),
+          {id,
+           {-context.font.width_em(text) * size_px / 2, baseline},
+           text,
            size_px,
            is_inside ? colors.text : colors.label,
            context.font.face()},
           is_inside,
           colors.label};
+}
+
+Label label_of(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
+  if (!texts.is_mass(body)) check_readable(context, "body.label", texts.text(body));
+  check_room(context, texts, body);
+  const Layout& layout = context.layout;
+  const double height = layout.height_px(body);
+  const bool is_inside = texts.fits(body);
+  const double baseline = is_inside
+                              ? layout.floor_px - height / 2 + kHalfFigure_em * context.sizes.mass
+                              : layout.floor_px - height - kBelowLabel * context.sizes.short_side;
+  const ItemId id = nth(ItemId::masses, layout.shapes.size() - 1 - body);
+  return label_at(context, id, body, texts.text(body), is_inside, baseline);
 }
 
 Drawable labels_of_line(const DrawingContext& context) {
@@ -247,16 +250,7 @@ Label label_of_disc(const DrawingContext& context, std::size_t body, const Label
   const bool is_inside = width <= 2 * kMostOfDisc * radius && size_px <= kMostOfDisc * radius;
   const double baseline =
       is_inside ? kHalfFigure_em * size_px : -radius - kBelowLabel * context.sizes.short_side;
-  const BlockColors& colors = context.colors[body];
-  return {body,
-          {nth(ItemId::masses, body),
-           {-width / 2, baseline},
-           text,
-           size_px,
-           is_inside ? colors.text : colors.label,
-           context.font.face()},
-          is_inside,
-          colors.label};
+  return label_at(context, nth(ItemId::masses, body), body, text, is_inside, baseline);
 }
 
 Drawable labels_of_plane(const DrawingContext& context) {

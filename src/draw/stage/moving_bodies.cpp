@@ -66,11 +66,6 @@ double edges_px(const Still& body, const PixelRect& frame) {
 struct Moments {
   std::vector<double> times;   ///< shares of the exposure that have passed
   std::vector<double> shares;  ///< for which they stand
-
-  void add(double time, double share) {
-    times.push_back(time);
-    shares.push_back(share);
-  }
 };
 
 /// When bodies change their velocity, and both ends of the exposure, in order.
@@ -105,7 +100,8 @@ Moments moments_for(std::size_t count, std::vector<double> changes, std::size_t 
     for (double part = 0; part < parts; ++part) {
       const double turns = kGolden * double(moments.times.size());
       const double offset = is_regular ? 0.5 : turns - std::floor(turns);
-      moments.add(changes[i - 1] + length * (part + offset) / parts, length / parts);
+      moments.times.push_back(changes[i - 1] + length * (part + offset) / parts);
+      moments.shares.push_back(length / parts);
     }
   }
   return moments;

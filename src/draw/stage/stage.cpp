@@ -128,15 +128,9 @@ void add_blocks(const FrameState& shown, const Layout& layout,
     blocks.push_back(
         {id_of(i, count), i, block_at(layout.at(i, shown), colors[i], layout.line_px)});
   }
-  if (shown.exposure.empty()) {
-    for (const auto& [id, body, block] : blocks) {
-      add_rectangles(id, std::get<ExposedBlock>(block), items);
-    }
-  } else {
-    const PixelRect seen{0, 0, int(std::ceil(layout.visible_right_px)),
-                         int(std::ceil(layout.wall_bottom_px))};
-    add_exposed(blocks, layout, seen, shown.exposure, items);
-  }
+  const PixelRect seen{0, 0, int(std::ceil(layout.visible_right_px)),
+                       int(std::ceil(layout.wall_bottom_px))};
+  add_exposed(blocks, layout, seen, shown.exposure, items);
 }
 
 Drawable bodies(const DrawingContext& context) {

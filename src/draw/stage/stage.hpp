@@ -39,6 +39,19 @@ std::vector<std::size_t> from_left_to_right(const System& line);
 LineWalls line_walls(const System& system);
 /// Those of them whose face is in the view.
 LineWalls seen_walls(const System& system, const View& view);
+/// What is seen of the axis of a line: nothing is drawn behind a wall's face.
+Range seen_axis(const System& system, const View& view);
+
+/// Columns of the frame, in pixels.
+struct Columns {
+  double left = 0;
+  double right = 0;
+  double width() const { return right - left; }
+};
+/// Where texts about a line may be.
+Columns text_columns(const DrawingContext& context);
+/// Those of them that are not behind walls, and a little apart from their faces.
+Columns text_columns_between_walls(const DrawingContext& context);
 
 /// The bodies, and what hides those that leave a row.
 Drawable bodies(const DrawingContext& context);

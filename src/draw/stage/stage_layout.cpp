@@ -170,6 +170,12 @@ Rational twice_energy(const System& system) {
   return sum;
 }
 
+Rational heaviest_mass(const System& system) {
+  Rational most = 0;
+  for (const Body& body : system.bodies) most = std::max(most, body.mass.value_or(0));
+  return most;
+}
+
 void check_resolution(const Range& range, const char* key, double scale) {
   const double farthest = std::max(std::abs(to_double(range.low)), std::abs(to_double(range.high)));
   const double step_px = farthest * std::numeric_limits<double>::epsilon() * scale;
@@ -185,9 +191,7 @@ AxisPlace place_axis(const LayoutContext& context, double stage_width_px) {
   const Sizes& sizes = context.sizes;
   const LineWalls all = line_walls(context.scene.system);
   const LineWalls seen = seen_walls(context.scene.system, view);
-  Range range = view.x;  // nothing is drawn behind a wall's face
-  if (all.left) range.low = std::max(range.low, *all.left);
-  if (all.right) range.high = std::min(range.high, *all.right);
+  const Range range = seen_axis(context.scene.system, view);
   check_is_between(all, range, view);
   const double beside_wall = sizes.margin + style::kWallWidth * sizes.short_side;
   const double opposite = seen.left || seen.right ? sizes.margin : 0;

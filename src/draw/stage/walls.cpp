@@ -10,6 +10,8 @@ namespace {
 
 /// In fractions of the frame's shorter side.
 constexpr double kHatchStep = 0.02;
+/// Between a wall's face and a text.
+constexpr double kBesideWall_em = 0.25;
 
 /// From places along a wall's face and behind it to pixels.
 struct WallMap {
@@ -138,6 +140,31 @@ LineWalls seen_walls(const System& system, const View& view) {
     walls.right.reset();
   }
   return walls;
+}
+
+Range seen_axis(const System& system, const View& view) {
+  const LineWalls walls = line_walls(system);
+  Range range = view.x;
+  if (walls.left) range.low = std::max(range.low, *walls.left);
+  if (walls.right) range.high = std::min(range.high, *walls.right);
+  return range;
+}
+
+Columns text_columns(const DrawingContext& context) {
+  const double margin = context.sizes.margin;
+  return {margin, std::min(context.scene.view.width_px - margin, context.layout.content_right_px)};
+}
+
+Columns text_columns_between_walls(const DrawingContext& context) {
+  const LineWalls walls = line_walls(context.scene.system);
+  const double beside_px = kBesideWall_em * context.sizes.text;
+  const auto face_px = [&](const Rational& face) {
+    return context.layout.at(to_double(face), 0).x;
+  };
+  auto [left, right] = text_columns(context);
+  if (walls.left) left = std::max(left, face_px(*walls.left) + beside_px);
+  if (walls.right) right = std::min(right, face_px(*walls.right) - beside_px);
+  return {left, right};
 }
 
 std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,

@@ -17,17 +17,12 @@ namespace {
 constexpr const char* kFile = "libpiblocks_av.so";
 
 /// Where the module may be, best first.
-std::vector<std::string> candidates() {
+std::vector<std::filesystem::path> candidates() {
   const std::filesystem::path folder = PIBLOCKS_MODULE_FOLDER;
+  auto files =
+      places_of_installed(PIBLOCKS_PREFIX, folder / kFile, std::filesystem::path("lib") / kFile);
   // By the search path of the binary: a library user's, the Python package's, or a test's.
-  std::vector<std::string> files = {kFile};
-  // Never in the working folder: it is anybody's.
-  const std::filesystem::path home = own_binary().parent_path();
-  if (home.is_absolute()) {
-    files.push_back(home / ".." / folder / kFile);
-    if (is_build_folder(home)) files.push_back(home / "lib" / kFile);
-  }
-  files.push_back(std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile);
+  files.insert(files.begin(), kFile);
   return files;
 }
 
@@ -51,7 +46,7 @@ const AvModule* load(const std::string& file, std::string& reasons) {
 
 const AvModule& load() {
   std::string reasons;
-  for (const std::string& file : candidates()) {
+  for (const std::filesystem::path& file : candidates()) {
     if (const AvModule* const module = load(file, reasons)) return *module;
   }
   throw MediaError("output: cannot load the encoders; reinstall piblocks:" + reasons);

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/input_file.hpp"
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
 #include "media/libav/av_versions.hpp"
@@ -67,14 +68,11 @@ bool is_cut_matroska(std::istream& file, std::uint64_t file_bytes) {
 /// Whether a Matroska or WebM file ends before its own structure does, which libavformat does not
 /// find. False for other kinds, for a file without its size, such as a live stream, and a pipe.
 bool is_cut_off(const std::string& path) {
+  if (beginning_of(path, 4) != "\x1a\x45\xdf\xa3") return false;
   std::error_code no_file;
-  if (!fs::is_regular_file(path, no_file)) return false;
   const std::uintmax_t bytes = fs::file_size(path, no_file);
   std::ifstream file(path, std::ios::binary);
-  std::string start(4, '\0');
-  if (no_file || !file.read(start.data(), static_cast<std::streamsize>(start.size()))) return false;
-  file.seekg(0);
-  return start == "\x1a\x45\xdf\xa3" && is_cut_matroska(file, bytes);
+  return !no_file && is_cut_matroska(file, bytes);
 }
 
 bool is_y4m(const AVFormatContext& input) {

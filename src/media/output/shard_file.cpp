@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/descriptor.hpp"
+#include "core/input_file.hpp"
 #include "core/output_file.hpp"
 
 namespace piblocks {
@@ -84,11 +85,8 @@ class ShardSink final : public FrameSink {
 
 /// Whether a file of this name exists that is not a part file of any version.
 bool is_another_file(const std::string& path) {
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) return false;
-  std::string start(kAnyMagic.size(), '\0');
-  std::ifstream(path, std::ios::binary).read(start.data(), std::ssize(start));
-  return start != kAnyMagic;
+  const std::optional<std::string> start = beginning_of(path, kAnyMagic.size());
+  return start && *start != kAnyMagic;
 }
 
 }  // namespace

@@ -36,10 +36,24 @@ void pack_rgba32(const std::uint8_t* __restrict row, int count, std::uint8_t* __
   }
 }
 
+/// The fourth bytes of pixels without alpha mean nothing.
+void pack_opaque(const std::uint8_t* __restrict row, int count, std::uint8_t* __restrict bytes) {
+  for (int x = 0; x < count; ++x) {
+    std::uint32_t pixel = pixel_at(row, x);
+    pixel = 0xff000000 | (pixel & 0xff00) | (pixel >> 16 & 0xff) | (pixel & 0xff) << 16;
+    std::memcpy(bytes + 4 * x, &pixel, sizeof pixel);
+  }
+}
+
 }  // namespace
 
 void pack_row(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes) {
   const auto pack = frame.has_alpha ? pack_rgba32 : pack_rgb24;
+  pack(frame.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px, bytes);
+}
+
+void pack_row_rgba(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes) {
+  const auto pack = frame.has_alpha ? pack_rgba32 : pack_opaque;
   pack(frame.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px, bytes);
 }
 

@@ -16,6 +16,9 @@ constexpr std::size_t packed_bytes(bool has_alpha) { return has_alpha ? 4 : 3; }
 /// @param bytes  takes packed_bytes() for each pixel; must not overlap the frame.
 void pack_row(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes);
 
+/// The same as R, G, B, straight alpha, also of a frame without alpha.
+void pack_row_rgba(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes);
+
 /// A colour sample before it was multiplied by alpha / 255, rounded half up; 0 if alpha is 0.
 constexpr std::uint8_t unmultiplied(std::uint32_t sample, std::uint32_t alpha) {
   if (alpha == 0) return 0;

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/file_set.hpp"
+#include "core/text.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/rgb24.hpp"
@@ -139,10 +140,6 @@ class PngEncoder final : public PacketPerFrameEncoder {
   std::vector<Strip> strips_;
 };
 
-std::string files_text(std::int64_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 /// Numbered pictures in a folder that may hold others. It replaces and removes those of an earlier
 /// sequence. It replaces other files only if it is told to, and never removes them.
 class PngSequence final : public FrameSink {
@@ -176,12 +173,12 @@ class PngSequence final : public FrameSink {
   }
   std::string aftermath() const override {
     std::vector<std::string> done;
-    if (foreign_ > 0) done.push_back("replaced " + files_text(foreign_, "other file"));
+    if (foreign_ > 0) done.push_back("replaced " + counted(foreign_, "other file"));
     if (removed_ > 0) {
-      done.push_back("removed " + files_text(removed_, "picture") + " of an earlier run");
+      done.push_back("removed " + counted(removed_, "picture") + " of an earlier run");
     }
     if (left_ > 0) {
-      done.push_back("left " + files_text(left_, "other file") +
+      done.push_back("left " + counted(left_, "other file") +
                      (left_ == 1 ? " that follows" : " that follow"));
     }
     return fmt::format("{}", fmt::join(done, ", "));

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <optional>
 #include <span>
@@ -21,6 +20,8 @@
 #include <utility>
 
 #include "core/descriptor.hpp"
+#include "core/input_file.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -319,12 +320,7 @@ AnyImage read_png_samples(const fs::path& path, std::span<const std::uint8_t> by
 }
 
 bool is_png_file(const fs::path& path) {
-  std::error_code no_file;
-  if (!fs::is_regular_file(path, no_file)) return false;
-  std::array<png_byte, 8> start{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(reinterpret_cast<char*>(start.data()), start.size()) &&
-         png_sig_cmp(start.data(), 0, start.size()) == 0;
+  return beginning_of(path, kPngSignature.size()) == kPngSignature;
 }
 
 bool is_animated_png(const fs::path& path) { return PngFile(path).is_animated(); }

@@ -11,12 +11,10 @@
 
 #include "draw/canvas.hpp"
 #include "media/pixels/rgb24.hpp"
-#include "physics/problems.hpp"
 #include "python/extension/canvas_pool.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
-#include "render/film.hpp"
-#include "scene/run_log.hpp"
+#include "render/renderings.hpp"
 
 namespace piblocks::python {
 namespace {
@@ -63,25 +61,17 @@ class Pictures {
 
  private:
   DrawList list_at(const Instant& instant) {
-    if (std::holds_alternative<Storyboard>(script_->script)) {
-      return film().frame(frame_at(film(), instant));
-    }
-    const FilmRun& one = run();
-    return one.still(piblocks::time_of(instant, one.log()));
+    return std::holds_alternative<Scene>(script_->script) ? run().still(instant)
+                                                          : still_picture(film(), instant);
   }
   const Film& film() {
     const std::scoped_lock lock(mutex_);
     if (!film_) film_ = std::make_unique<const Film>(script_->script);
     return *film_;
   }
-  /// Apart from the film, because a still may show what no film can.
   const FilmRun& run() {
     const std::scoped_lock lock(mutex_);
-    if (!run_) {
-      const Scene& scene = std::get<Scene>(script_->script);
-      require_valid(problems_of(scene));
-      run_ = std::make_unique<const FilmRun>(scene, log_of(scene), FilmUse::pictures);
-    }
+    if (!run_) run_ = std::make_unique<const FilmRun>(run_of(std::get<Scene>(script_->script)));
     return *run_;
   }
 
@@ -104,17 +94,6 @@ py::buffer_info buffer_of(const Frame& frame) {
           /*readonly=*/true};
 }
 
-/// A row without alpha: its fourth bytes mean nothing.
-void copy_opaque_row(const ImageView& view, int y, std::uint8_t* to) {
-  const std::uint8_t* from = view.data + y * std::ptrdiff_t(view.stride_bytes);
-  for (int x = 0; x < view.width_px; ++x, from += 4, to += 4) {
-    to[0] = from[2];
-    to[1] = from[1];
-    to[2] = from[0];
-    to[3] = 255;
-  }
-}
-
 /// Fills rows of R, G, B and straight alpha, as a PNG file has them.
 void copy_rgba(const Frame& frame, const py::buffer& buffer) {
   const ImageView view = frame.view();
@@ -123,8 +102,7 @@ void copy_rgba(const Frame& frame, const py::buffer& buffer) {
   const WithoutGil released;
   const PixelRect all{0, 0, view.width_px, view.height_px};
   for (int y = 0; y < view.height_px; ++y) {
-    std::uint8_t* const row = to + std::size_t(y) * row_bytes;
-    view.has_alpha ? pack_row(view, all, y, row) : copy_opaque_row(view, y, row);
+    pack_row_rgba(view, all, y, to + std::size_t(y) * row_bytes);
   }
 }
 

@@ -25,18 +25,13 @@ namespace {
 namespace py = pybind11;
 namespace fs = std::filesystem;
 
-/// Where the references of a scene are, and what they hold.
-struct GoldenPlace {
-  std::string name;
-  std::string folder;
-  std::optional<std::string> frames;  ///< instead of the scene's
-};
-
-References references_of(const BoundScript& bound, const GoldenPlace& place) {
+/// @param frames  instants kept as pictures, instead of the scene's
+References references_of(const BoundScript& bound, const std::string& name,
+                         const std::string& folder, const std::optional<std::string>& frames) {
   ScriptBuilder builder;
   bound.recipe.fill(builder);
-  if (place.frames) builder.set("--frames", "golden.frames", *place.frames);
-  return {place.name, builder, place.folder};
+  if (frames) builder.set("--frames", "golden.frames", *frames);
+  return {name, builder, folder};
 }
 
 void check_outputs(const BoundScript& bound, const References& references) {
@@ -48,15 +43,17 @@ void check_outputs(const BoundScript& bound, const References& references) {
 
 void ignore_progress(const Progress& /*progress*/) {}
 
-cli::GoldenResult act(const BoundScript& bound, const GoldenPlace& place, const std::string& action,
-                      const std::optional<std::string>& diff) {
+/// @returns whether it has succeeded, its outcome, its lines.
+py::tuple act(const BoundScript& bound, const std::string& action, const std::string& name,
+              const std::string& folder, const std::optional<std::string>& frames,
+              const std::optional<std::string>& diff) {
   cli::GoldenResult result;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
-    const References references = references_of(bound, place);
+    const References references = references_of(bound, name, folder, frames);
     if (action == "check") {
       OverwriteCheck check;
       bound.recipe.claim_inputs(check, references.script());
-      cli::claim_diff(check, {references}, place.folder, diff);
+      cli::claim_diff(check, {references}, folder, diff);
       check.check();
       result = cli::check_golden(references, cli::temporary_folder(), diff, ignore_progress, stop);
       return;
@@ -66,12 +63,14 @@ cli::GoldenResult act(const BoundScript& bound, const GoldenPlace& place, const 
                                 : cli::approve_golden(references, ignore_progress, stop);
   });
   std::ranges::transform(result.lines, result.lines.begin(), printable);
-  return result;
+  return py::make_tuple(result.exit_code == 0, result.outcome, result.lines);
 }
 
 /// The paths of the references.
-std::vector<std::string> files_of(const BoundScript& bound, const GoldenPlace& place) {
-  const References references = references_of(bound, place);
+std::vector<std::string> files_of(const BoundScript& bound, const std::string& name,
+                                  const std::string& folder,
+                                  const std::optional<std::string>& frames) {
+  const References references = references_of(bound, name, folder, frames);
   std::vector<std::string> paths;
   for (const std::string& file : references.files()) {
     paths.push_back(printable(references.path(file).string()));
@@ -81,10 +80,11 @@ std::vector<std::string> files_of(const BoundScript& bound, const GoldenPlace& p
 
 /// Writes the page of 'piblocks compare --report' for the pictures among the references.
 /// @returns false if there are none.
-bool write_report(const BoundScript& bound, const GoldenPlace& place, const std::string& page) {
+bool write_report(const BoundScript& bound, const std::string& name, const std::string& folder,
+                  const std::optional<std::string>& frames, const std::string& page) {
   bool has_pictures = false;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
-    const References references = references_of(bound, place);
+    const References references = references_of(bound, name, folder, frames);
     const fs::path scratch = cli::temporary_folder() / "piblocks-golden";
     const Unfinished expected(scratch, Unfinished::Kind::folder);
     const Unfinished actual(scratch, Unfinished::Kind::folder);
@@ -111,32 +111,14 @@ bool write_report(const BoundScript& bound, const GoldenPlace& place, const std:
 }  // namespace
 
 void bind_golden(py::module_& module) {
-  module.def(
-      "golden",
-      [](const BoundScript& bound, const std::string& action, const std::string& name,
-         const std::string& folder, const std::optional<std::string>& frames,
-         const std::optional<std::string>& diff) {
-        const cli::GoldenResult result = act(bound, {name, folder, frames}, action, diff);
-        return py::make_tuple(result.exit_code == 0, result.outcome, result.lines);
-      },
-      py::arg("script"), py::arg("action"), py::arg("name"), py::arg("folder"), py::arg("frames"),
-      py::arg("diff"), "'piblocks golden': record, check or approve; success, outcome, lines.");
-  module.def(
-      "golden_files",
-      [](const BoundScript& bound, const std::string& name, const std::string& folder,
-         const std::optional<std::string>& frames) {
-        return files_of(bound, {name, folder, frames});
-      },
-      py::arg("script"), py::arg("name"), py::arg("folder"), py::arg("frames"),
-      "The paths of the references, whether they are there or not.");
-  module.def(
-      "golden_report",
-      [](const BoundScript& bound, const std::string& name, const std::string& folder,
-         const std::optional<std::string>& frames, const std::string& page) {
-        return write_report(bound, {name, folder, frames}, page);
-      },
-      py::arg("script"), py::arg("name"), py::arg("folder"), py::arg("frames"), py::arg("page"),
-      "Writes a page that lays expected and actual pictures over each other.");
+  module.def("golden", &act, py::arg("script"), py::arg("action"), py::arg("name"),
+             py::arg("folder"), py::arg("frames"), py::arg("diff"),
+             "'piblocks golden': record, check or approve; success, outcome, lines.");
+  module.def("golden_files", &files_of, py::arg("script"), py::arg("name"), py::arg("folder"),
+             py::arg("frames"), "The paths of the references, whether they are there or not.");
+  module.def("golden_report", &write_report, py::arg("script"), py::arg("name"), py::arg("folder"),
+             py::arg("frames"), py::arg("page"),
+             "Writes a page that lays expected and actual pictures over each other.");
 }
 
 }  // namespace piblocks::python

@@ -32,10 +32,8 @@ void refuse_standard_output(const std::string& output, const char* operation) {
 RenderJob make_job(const BoundScript& bound, const std::string& output,
                    const BoundOptions& options) {
   refuse_standard_output(output, "render");
-  const cli::Destination* const destination = cli::destination_of(options, output);
-  RenderJob job = cli::job_of(options, output, [&] {
-    if (destination == nullptr) return bound.script;
-    return bound.recipe.script(destination->defaults, fmt::format("--for {}", destination->name));
+  RenderJob job = cli::job_of(options, output, [&](const auto& defaults, const auto& origin) {
+    return defaults.empty() ? bound.script : bound.recipe.script(defaults, origin);
   });
   OverwriteCheck check;
   bound.recipe.claim_inputs(check, job.script);

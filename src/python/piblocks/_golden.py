@@ -7,7 +7,7 @@ from typing import Any
 
 from . import _piblocks
 from ._errors import UsageError
-from ._values import bytes_of, instant, path
+from ._values import bytes_of, instant, path, require_str
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,7 @@ class GoldenResult:
 
 
 def _name(name: Any) -> bytes:
-    if not isinstance(name, str):
-        raise TypeError(f"name: must be a str, not {type(name).__name__}")
+    require_str("name", name)
     if "/" in name:
         raise UsageError(f"name: {name!r} has a slash; the folder is dir")
     return path("name", name)

@@ -10,7 +10,7 @@ from typing import Any, Union
 
 from . import _piblocks
 from ._notebook import Player, file_html, file_player
-from ._values import flag, instant, options, path, texts
+from ._values import flag, instant, options, path, require_str, texts
 
 Progress = Callable[[int, int], object]
 
@@ -100,8 +100,7 @@ def still(script: _piblocks.Script, output: Any, at: Any, format: Any) -> None:
     when = instant("at", at)
     if hasattr(output, "write"):
         form = "png" if format is None else format
-        if not isinstance(form, str):
-            raise TypeError(f"format: must be a str, not {type(form).__name__}")
+        require_str("format", form)
         output.write(_piblocks.still_bytes(script, when, form))
         return
     if format is not None:

@@ -123,8 +123,7 @@ class Scene:
 
         :param origin: stands for the file's name in messages.
         """
-        if not isinstance(text, str):
-            raise TypeError(f"text: must be a str, not {type(text).__name__}")
+        require_str("text", text)
         return cls._restore(
             scalar("origin", origin), bytes_of(text), False, _given(key_texts(keys))
         )
@@ -135,8 +134,7 @@ class Scene:
 
         :raises UsageError: if there is none of this name; it names the nearest one.
         """
-        if not isinstance(name, str):
-            raise TypeError(f"name: must be a str, not {type(name).__name__}")
+        require_str("name", name)
         text = _piblocks.scene_text(bytes_of(name)).encode()
         return cls._restore(f"{name} (shipped)".encode(), text, False, _given(key_texts(keys)))
 

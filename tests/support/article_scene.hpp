@@ -1,0 +1,16 @@
+// The article's scene for a number of digits, in frames of any size.
+#pragma once
+
+#include <piblocks/scene.hpp>
+
+namespace piblocks::testing_support {
+
+inline Scene article_scene(int digits, int width_px = 1920, int height_px = 1080) {
+  Scene scene;
+  scene.system = article_system(digits);
+  scene.view.width_px = width_px;
+  scene.view.height_px = height_px;
+  return scene;
+}
+
+}  // namespace piblocks::testing_support
