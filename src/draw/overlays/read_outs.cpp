@@ -334,6 +334,7 @@ ReadOutRows::ReadOutRows(const LayoutContext& context)
   for (const ReadOut& read_out : read_outs) characters += read_out.widest;
   widths_ = TextWidths(context.font, characters);
   std::vector<double> widths;
+  widths.reserve(read_outs.size());
   for (const ReadOut& read_out : read_outs) {
     widths.push_back(context.font.width_em(read_out.widest) * text_px_);
   }

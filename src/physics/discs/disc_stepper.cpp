@@ -18,6 +18,13 @@
 namespace piblocks::discs {
 namespace {
 
+/// Another partner that the disc may truly meet before the planned one.
+struct Rival {
+  double possible = kNever;
+  std::uint32_t partner = kNobody;
+  std::uint32_t meetings = 0;  ///< of this partner when it was looked at
+};
+
 /// The next meeting of a disc as far as is known, and when it leaves its cell.
 struct Plan {
   double time = kNever;
@@ -26,13 +33,7 @@ struct Plan {
   std::uint32_t meetings = 0;       ///< of the partner when this was planned
   bool is_doubt = false;            ///< not a meeting, but from then on one cannot be ruled out
   double possible = kNever;         ///< while all is certain: they truly do not meet before
-};
-
-/// Another partner that the disc may truly meet before the planned one.
-struct Rival {
-  double possible = kNever;
-  std::uint32_t partner = kNobody;
-  std::uint32_t meetings = 0;  ///< of this partner when it was looked at
+  Rival rival = {};
 };
 
 /// Each disc has one plan, its soonest. If the partner meets another disc first, the plan stays in
@@ -47,7 +48,6 @@ class Stepper final : public DiscStepper {
         number_(static_cast<std::uint32_t>(discs_.size())),
         cells_(discs_, search),
         plans_(number_),
-        rivals_(number_),
         queue_(number_) {
     for (std::uint32_t disc = 0; disc < number_; ++disc) raise_top_speed(disc);
     plan_all();
@@ -76,8 +76,8 @@ class Stepper final : public DiscStepper {
   void plan_end_of_margin(std::uint32_t disc);
   bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
   bool propose(std::uint32_t disc, const Plan& proposal);
-  bool note_rival(std::uint32_t disc, const Plan& loser);
-  bool has_rival(std::uint32_t disc) const { return rivals_[disc].possible < plans_[disc].time; }
+  static bool note_rival(Plan& plan, const Plan& loser);
+  static bool has_rival(const Plan& plan) { return plan.rival.possible < plan.time; }
   std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
   template <typename Planned>
   bool is_stale(const Planned& planned) const;
@@ -104,7 +104,6 @@ class Stepper final : public DiscStepper {
   std::uint32_t number_;
   Cells cells_;
   std::vector<Plan> plans_;
-  std::vector<Rival> rivals_;  // of each disc, the one that may be first
   EventTree queue_;
   double until_ = kNever;
   double top_speed_ = 0;  ///< while all is certain: of all discs so far, at least
@@ -115,7 +114,6 @@ class Stepper final : public DiscStepper {
 
 void Stepper::plan_all() {
   for (Plan& plan : plans_) plan = Plan{};
-  for (Rival& rival : rivals_) rival = Rival{};
   for (std::uint32_t disc = 0; disc < number_; ++disc) {
     if (system_.is_movable(disc)) plan(disc);
   }
@@ -123,7 +121,6 @@ void Stepper::plan_all() {
 
 void Stepper::plan(std::uint32_t disc) {
   plans_[disc] = Plan{};
-  rivals_[disc] = Rival{};
   plans_[disc].crossing = cells_.crossing_time(disc);
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
   cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
@@ -184,20 +181,20 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
   const bool is_sooner =
       proposal.time < plan.time ||
       (proposal.time == plan.time && rank_of(disc, proposal) < rank_of(disc, plan));
-  if (!is_sooner) return note_rival(disc, proposal);
+  if (!is_sooner) return note_rival(plan, proposal);
   const Plan loser = plan;
   plan = proposal;
   plan.crossing = loser.crossing;
-  note_rival(disc, loser);
+  plan.rival = loser.rival;
+  note_rival(plan, loser);
   return true;
 }
 
 /// @return whether it becomes the rival of the disc's plan, and may be before it
-bool Stepper::note_rival(std::uint32_t disc, const Plan& loser) {
-  Rival& rival = rivals_[disc];
-  if (loser.possible >= rival.possible || loser.partner == plans_[disc].partner) return false;
-  rival = {loser.possible, loser.partner, loser.meetings};
-  return has_rival(disc);
+bool Stepper::note_rival(Plan& plan, const Plan& loser) {
+  if (loser.possible >= plan.rival.possible || loser.partner == plan.partner) return false;
+  plan.rival = {loser.possible, loser.partner, loser.meetings};
+  return has_rival(plan);
 }
 
 /// The order of simultaneous events: doubts, then pairs as TieRank says, in one number.
@@ -226,8 +223,8 @@ void Stepper::doubt_graze(std::uint32_t disc) {
 void Stepper::enqueue(std::uint32_t disc) {
   doubt_graze(disc);
   const Plan& plan = plans_[disc];
-  const EventKey next = has_rival(disc) ? EventKey{rivals_[disc].possible, 0}
-                                        : EventKey{plan.time, rank_of(disc, plan)};
+  const EventKey next =
+      has_rival(plan) ? EventKey{plan.rival.possible, 0} : EventKey{plan.time, rank_of(disc, plan)};
   queue_.set(disc, plan.crossing <= next.time ? EventKey{plan.crossing, 0} : next);
 }
 
@@ -248,9 +245,9 @@ std::optional<SteppedCollision> Stepper::step() {
     const double time = queue_.first_time();
     if (next.crossing <= time) {
       cross(disc);
-    } else if (is_stale(next) || (has_rival(disc) && is_stale(rivals_[disc]))) {
+    } else if (is_stale(next) || (has_rival(next) && is_stale(next.rival))) {
       plan(disc);
-    } else if (next.is_doubt || has_rival(disc)) {
+    } else if (next.is_doubt || has_rival(next)) {
       if (is_certain()) until_ = std::max(time, 0.0);
       plan(disc);
     } else {

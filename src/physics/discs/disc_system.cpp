@@ -91,6 +91,7 @@ void add_disc(DiscSystem& result, const Body& body, const Exponents& exponents) 
   disc.radius = radius.value;
   result.discs.push_back(disc);
   result.masses.push_back(mass);
+  result.has_immovable |= mass == kNever;
   result.bounds.push_back({x.error + y.error, vx.error + vy.error, 0});
 }
 

@@ -31,8 +31,9 @@ struct DiscSystem {
   std::vector<Bound> bounds = {};
   std::vector<WallLine> walls = {};
   Units units = {};
+  bool has_immovable = false;  ///< discs
 
-  bool is_movable(std::uint32_t disc) const { return masses[disc] != kNever; }
+  bool is_movable(std::uint32_t disc) const { return !has_immovable || masses[disc] != kNever; }
 };
 
 /// @param system  has no problems.
