@@ -55,6 +55,12 @@ def test_rows_before_time_zero():
     assert len(log) == 1
 
 
+@pytest.mark.parametrize("limit", [2**58, 2**62, 2**100])
+def test_a_log_that_does_not_fit_into_memory_says_so(limit):
+    with pytest.raises(piblocks.UsageError, match="log: [0-9]+ collisions do not fit into memory"):
+        Scene(36).log(limit=limit)
+
+
 def test_a_log_beyond_64_bits_has_ints():
     log = Scene(20).log(first=15707963267948966190, last=15707963267948966192)
     assert log["index"].tolist() == [15707963267948966190 + k for k in range(3)]

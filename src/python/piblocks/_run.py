@@ -11,6 +11,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _piblocks
+from ._errors import UsageError
 from ._values import instant, options, scalar
 
 _CHUNK = 65_536  # rows whose words become str at a time
@@ -95,7 +96,12 @@ def log(
     row = _dtype(run.row_type)
     # Words become str, which compare with Python's strings.
     shown = [(n, f"U{row[n].itemsize}" if row[n].kind == "S" else row[n]) for n in row.names or ()]
-    rows = np.empty(count, shown)
+    try:
+        rows = np.empty(count, shown)
+    except (MemoryError, ValueError):  # numpy has a limit of its own
+        raise UsageError(
+            f"log: {count} collisions do not fit into memory; ask for fewer by limit, first or last"
+        ) from None
     for start in range(0, count, _CHUNK):
         part = np.empty(min(_CHUNK, count - start), row)
         run.fill_log(format(begin + start, "x"), part.view(np.uint8), len(part))
