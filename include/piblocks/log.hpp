@@ -134,7 +134,7 @@ class Log {
   /// each one meets others. Nothing if this holds until `time`; without a time, if it holds for
   /// some 10^9 times the length of the run.
   virtual std::optional<double> certain_until(const std::optional<Rational>& time) const = 0;
-  /// Whether no rounding can ever change the collisions. Computes nothing.
+  /// Whether all collisions are certain, at any time. The call does not step the run.
   virtual bool is_always_certain() const noexcept { return false; }
 
   /// As count_at(), except that collisions within the rounding of `time` and of the engine may

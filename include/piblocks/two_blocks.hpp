@@ -219,9 +219,9 @@ std::optional<Rational> turn_of(const Log& log);
 inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws UsageError unless they are two blocks beside something immovable; if an engine has to
-///         store more than kMaxStoredCollisions, or steps what is not elastic; if the closed form
-///         is asked for elastic blocks of a mass ratio beyond 2^2000.
+/// @throws UsageError if the system is not two blocks beside something immovable; if an engine
+///         would store more than kMaxStoredCollisions; if Engine::events gets inelastic blocks;
+///         if the closed form gets elastic blocks of a mass ratio beyond 2^2000.
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
 std::unique_ptr<PairLog> make_pair_log(const System& system, Engine engine = Engine::unfolded);
 std::unique_ptr<PairLog> make_pair_log(const TwoBlocks& system, Engine engine = Engine::unfolded);

@@ -123,13 +123,13 @@ void run_check(const Command& options) {
            });
 }
 
-/// @tparam kAct  writes references.
-template <auto kAct>
-void run_writing(const Command& options) {
+/// @tparam kWrite  writes the references of one scene.
+template <auto kWrite>
+void run_write(const Command& options) {
   const std::vector<References> all = references_of(options);
   TextOutput out;
   check_references(options, all);
-  run_each(all, out, kAct);
+  run_each(all, out, kWrite);
 }
 
 void add_action(Command& golden, const char* name, const char* help,
@@ -156,10 +156,10 @@ void add_golden(Command& app) {
   Command command = app.add_command("golden", "Hold scenes to references: record, check, approve");
   command.require_command();
   add_action(command, "record", "Add the references that scenes do not have",
-             run_writing<record_golden>);
+             run_write<record_golden>);
   add_action(command, "check", "Compare scenes with their references; writes none", run_check);
   add_action(command, "approve", "Replace references, and tell what changes",
-             run_writing<approve_golden>);
+             run_write<approve_golden>);
   command.set_footer(
       "Every scene is reported, whatever is found about the others. The exit code of check is "
       "that\n"

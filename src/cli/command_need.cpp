@@ -17,9 +17,9 @@ constexpr int kLossDigits = 12;
 
 /// As "{:g}" writes it, also if no double is so small.
 std::string loss_text(const Rational& loss) {
-  const auto [mantissa, exponent] = magnitude_of(loss);
-  constexpr long kLeastWithoutPower = -4;
-  if (exponent >= kLeastWithoutPower) return fmt::format("{:.{}g}", to_double(loss), kLossDigits);
+  const auto [mantissa, exponent] = written_with(kLossDigits - 1, magnitude_of(loss));
+  constexpr long kLeastPlainExponent = -4;
+  if (exponent >= kLeastPlainExponent) return fmt::format("{:.{}g}", to_double(loss), kLossDigits);
   return fmt::format("{:.{}g}e-{:02}", mantissa, kLossDigits, -exponent);
 }
 

@@ -14,7 +14,8 @@
 
 namespace piblocks::cli {
 
-/// Makes a script. @param defaults  win over its file. @param origin  of these, named in messages
+/// Makes a script. @param defaults  replace values of its file, but not options.
+/// @param origin  says in messages where the defaults come from, as "--for NAME".
 using MakeScript =
     std::function<Script(const std::vector<SceneDefault>& defaults, const std::string& origin)>;
 

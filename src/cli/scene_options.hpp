@@ -44,8 +44,8 @@ class SceneOptions {
                 const std::string& origin = {}) const;
   /// Adds the scene file, and the logos of what was made of it.
   void add_inputs(OverwriteCheck& check, const Script& script) const;
-  /// @param check  has what else is read.
-  /// @throws UsageError if --output names that, the scene file or a logo of the script.
+  /// @param check  has the other files that the command reads.
+  /// @throws UsageError if --output names one of these, the scene file or a logo of the script.
   void check_output(const Script& script = {}, OverwriteCheck check = {}) const;
 
  private:

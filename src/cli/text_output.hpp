@@ -1,8 +1,8 @@
 // Text for people and for programs.
 // In: text and values; what a terminal cannot show in them is escaped. Out: messages on standard
 // error, if it can be written: work does not fail because a terminal was closed. Lines to standard
-// output, in large writes: a failed write is an exception, but nothing is said to a
-// reader that has gone away.
+// output, in large writes: a failed write is an exception, but nothing is said to a reader that has
+// gone away.
 #pragma once
 
 #include <fmt/format.h>

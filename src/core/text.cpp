@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 namespace piblocks {
@@ -139,6 +140,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string rounded_down(double value) {
+  if (value >= 1e3 && value < 1e15) return fmt::format("{:.0f}", std::floor(value));
   std::string text = fmt::format("{:.16e}", value);  // such as 2.9657000000000000e+00
   text.erase(5, text.find('e') - 5);
   return fmt::format("{:.4g}", std::strtod(text.c_str(), nullptr));

@@ -63,7 +63,8 @@ std::string printable(std::string_view text);
 /// The same with the special characters of HTML and XML escaped, in attributes too.
 std::string escaped(std::string_view text);
 
-/// At most four figures, and never more than the value. @param value  >= 0
+/// Four figures, or all before the point if they are more; never more than the value.
+/// @param value  >= 0
 std::string rounded_down(double value);
 
 /// The text as a string of JSON (RFC 8259) in quotes, which a <script> element of HTML may hold.

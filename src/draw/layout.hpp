@@ -179,9 +179,9 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
   }};
 }
 
-/// The sum of mass · velocity² of all bodies that move, which never changes.
+/// The sum of mass · velocity² of all movable bodies, which never changes.
 Rational twice_energy(const System& system);
-/// Of all bodies that move; 0 if none does.
+/// Of all movable bodies; 0 if there is none.
 Rational heaviest_mass(const System& system);
 
 }  // namespace piblocks

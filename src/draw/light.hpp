@@ -74,7 +74,8 @@ class Light {
   static constexpr std::size_t kParts = 4096;
   std::array<double, 255 * kPerStep + 1> table_{};
   std::array<std::int64_t, 255 * kUnitsPerStep + 1> units_{};
-  std::array<std::uint8_t, kParts + 1> first_samples_{};  ///< of each part of all light
+  std::array<std::uint8_t, kParts + 1>
+      first_samples_{};  ///< nearest to where each part of the light begins
 };
 
 }  // namespace piblocks

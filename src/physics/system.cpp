@@ -217,19 +217,18 @@ void check_dimensions(const System& system, SceneProblems& problems) {
                      "has two coordinates: blocks are on a line");
   }
   for (std::size_t i = 0; i < system.walls.size(); ++i) {
-    const auto& [name, point, normal] = system.walls[i];
+    const Wall& wall = system.walls[i];
     const bool is_short = has_short_names(system);
     problems.require_finite(is_short ? "wall.face" : fmt::format("wall {}.point", i + 1),
-                            std::max(abs(point[0]), abs(point[1])));
+                            std::max(abs(wall.point[0]), abs(wall.point[1])));
     const std::string key = fmt::format("wall {}.normal", i + 1);
-    if (normal[0] == 0 && normal[1] == 0) {
+    if (wall.normal[0] == 0 && wall.normal[1] == 0) {
       problems.add(key, "= [0, 0]: must not be 0");
-    } else if (system.dimensions == 1 && normal[1] != 0) {
+    } else if (system.dimensions == 1 && wall.normal[1] != 0) {
       problems.add(
           key,
-          "makes the {} wall, but blocks move along x alone; leave it out, or give the bodies "
-          "a radius",
-          name);
+          "makes the {}, but blocks move along x alone; leave it out, or give the bodies a radius",
+          noun_of(wall));
     }
   }
 }

@@ -55,7 +55,7 @@ class FilmRun {
   /// @param on_picture  called after each.
   std::vector<DrawList> stills(std::span<const Rational> times,
                                const std::function<void()>& on_picture) const;
-  /// The same of one instant.
+  /// The picture of the scene at one instant.
   DrawList still(const Instant& instant) const;
 
  private:

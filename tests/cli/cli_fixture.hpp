@@ -48,7 +48,7 @@ class CliFixture : public testing::Test {
     EXPECT_TRUE(result.err.empty() || result.err.starts_with("piblocks: note: ")) << result.err;
     return result.out;
   }
-  /// What is said of wrong usage, or of another failure, which leaves the folder as it is.
+  /// The message of a command that fails with this exit code. It changes nothing in the folder.
   std::string refusal(const Arguments& arguments, int exit_code = 2) const {
     const Names before = entries();
     const CommandResult result = piblocks(arguments);

@@ -127,12 +127,13 @@ TEST(Shortened, KeepsTheBeginningOfWhatWouldFillTheScreen) {
   EXPECT_EQ(shortened(std::string(61, '\xff')).substr(40), "… (61 bytes)");
 }
 
-TEST(Text, RoundsDownToFourFigures) {
+TEST(Text, IsRoundedDown) {
   for (const auto& [value, text] : {std::pair(2.0, "2"),
                                     {2.9657, "2.965"},
                                     {0.99999, "0.9999"},
                                     {13.1, "13.1"},
-                                    {123456.0, "1.234e+05"},
+                                    {1000.9, "1000"},
+                                    {123456.7, "123456"},
                                     {1e100, "1e+100"},
                                     {0.00012347, "0.0001234"},
                                     {9.9999e-7, "9.999e-07"}}) {

@@ -35,13 +35,13 @@ Scene shipped(const std::string& name, const Settings& settings) {
   return builder.build_scene();
 }
 
-/// Also in any order. @returns how many frames there are
+/// Expects that frames in any order are those of a full paint. @returns how many there are
 std::int64_t expect_full_paints(const Script& script) {
   const Film film(script);
   FrameRenderer renderer(script);
   EXPECT_EQ(renderer.frame_count(), film.frame_count());
   const auto is_painted = [&](std::int64_t frame) {
-    return words_of(renderer.frame(frame)) == painted(film.frame(frame));
+    return pixels_of(renderer.frame(frame)) == painted(film.frame(frame));
   };
   for (std::int64_t k = 0; k < film.frame_count(); ++k) {
     const bool is_right = is_painted(k) && is_painted(k * 37 % film.frame_count()) && is_painted(k);
@@ -200,7 +200,7 @@ TEST(BodyPictures, SeparationHasTheCollisionAtTheBeginning) {
   EXPECT_THROW(make("1", "0.01"), UsageError) << "they have met before";
 }
 
-/// From which time on the picture may be wrong is said in it, from that time on.
+/// A picture that may be wrong says from which time on.
 TEST(BodyPictures, SayWhatIsNotCertain) {
   const Film film(script_of("view.theme = 'lecture'\nview.fps = 1\ntime.allow-uncertain = true\n" +
                             testing_support::uncertain_discs()));

@@ -94,7 +94,7 @@ TEST(Canvas, APictureDoesNotDependOnTheOneBefore) {
   Canvas used(40, 30);
   used.paint(with_rectangle({3, 3, 30, 20}));
   used.paint(text);
-  EXPECT_EQ(words_of(used.view()), painted(text));
+  EXPECT_EQ(pixels_of(used.view()), painted(text));
 }
 
 /// A plate of its own in each list, with the same disc in all.
@@ -113,7 +113,7 @@ TEST(Canvas, PlatesOfEqualItemsMayHaveOtherPixels) {
         const DrawList list = with_plate({bounds.x + right, bounds.y, bounds.width, bounds.height},
                                          {origin.x + right, origin.y});
         canvas.paint(list);
-        EXPECT_EQ(words_of(canvas.view()), painted(list))
+        EXPECT_EQ(pixels_of(canvas.view()), painted(list))
             << bounds.width << ' ' << bounds.x << ' ' << origin.x << ' ' << origin.y;
       }
     }
@@ -127,7 +127,7 @@ TEST(Canvas, WithoutABackgroundHasAlphaAndColoursMultipliedByIt) {
   EXPECT_TRUE(canvas.view().has_alpha);
   EXPECT_FALSE(Canvas(40, 30).view().has_alpha);
   canvas.paint(list);
-  const std::vector<std::uint32_t> words = words_of(canvas.view());
+  const std::vector<std::uint32_t> words = pixels_of(canvas.view());
   constexpr std::size_t kRow = 7 * 40;
   EXPECT_EQ(words[kRow + 20], 0xFF0AC81Eu);
   EXPECT_EQ(words[kRow + 5], 0u);
@@ -135,7 +135,7 @@ TEST(Canvas, WithoutABackgroundHasAlphaAndColoursMultipliedByIt) {
   EXPECT_NEAR(words[kRow + 10] >> 8 & 0xFF, 0.75 * 200, 2);
   list.items.clear();
   canvas.paint(list);
-  EXPECT_EQ(words_of(canvas.view())[kRow + 20], 0u) << "what was there before is gone";
+  EXPECT_EQ(pixels_of(canvas.view())[kRow + 20], 0u) << "what was there before is gone";
 }
 
 TEST(Canvas, WithoutABackgroundLooksTheSameOnWhite) {

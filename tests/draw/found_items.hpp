@@ -172,7 +172,7 @@ inline std::string text_problem(const std::vector<Box>& texts, const Rect& place
 }
 
 /// Row by row.
-inline std::vector<std::uint32_t> words_of(const ImageView& image) {
+inline std::vector<std::uint32_t> pixels_of(const ImageView& image) {
   const auto width = static_cast<std::size_t>(image.width_px);
   std::vector<std::uint32_t> words(width * static_cast<std::size_t>(image.height_px));
   for (int y = 0; y < image.height_px; ++y) {
@@ -186,10 +186,10 @@ inline std::vector<std::uint32_t> painted(const DrawList& list) {
   Canvas canvas(list.width_px, list.height_px,
                 list.background ? Background::opaque : Background::transparent);
   canvas.paint(list);
-  return words_of(canvas.view());
+  return pixels_of(canvas.view());
 }
 
-/// Without what is in place of alpha.
+/// Red, green and blue of a pixel; the upper byte is 0.
 inline std::uint32_t color_at(const Canvas& canvas, int x, int y) {
   std::uint32_t word = 0;
   std::memcpy(&word, canvas.view().row(y) + 4 * x, 4);

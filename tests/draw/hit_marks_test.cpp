@@ -172,7 +172,7 @@ TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
     if (const auto seen = loupe_in(frame)) {
       EXPECT_TRUE(items_of<PathItem>(seen->list.items, ItemId::hits).empty());
     }
-    // Hits cost time and are found out only where they are shown, or what they sweep is.
+    // Finding hits takes time: it is done only where hits, or what blocks sweep, are shown.
     const Schedule schedule = make_schedule(frames.scene(), frames.log());
     EXPECT_EQ(frames.film_state(schedule, 220).hits_per_s > 0, loupe_in(frame).has_value());
   }

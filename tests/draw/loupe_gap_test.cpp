@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "draw/lecture_frames.hpp"
-#include "draw/turned_round.hpp"
+#include "draw/mirrored.hpp"
 #include "support/traced_random.hpp"
 
 namespace piblocks {
@@ -16,7 +16,7 @@ TEST(LoupeGap, OfAWallOnTheRightIsTurnedRound) {
   for (const int digits : {2, 5}) {
     const Scene scene = scene_with(lecture(digits));
     const Frames frames(scene);
-    const Frames turned(turned_round(scene));
+    const Frames turned(mirrored(scene));
     for (const char* distance : {"-0.4", "-0.01", "0", "0.003", "0.2"}) {
       SCOPED_TRACE(distance);
       const Rational time = frames.turn() + parse_rational(distance);
@@ -104,7 +104,7 @@ TEST(LoupeGap, EnlargesAnyGapThatClosesInItsWindow) {
 
 TEST(LoupeGap, HitsHaveTheColoursOfTheStage) {
   for (const bool is_outer_first : {false, true}) {
-    Scene scene = turned_round(scene_with(lecture(3)));
+    Scene scene = mirrored(scene_with(lecture(3)));
     if (is_outer_first) std::swap(scene.system.bodies[0], scene.system.bodies[1]);
     const Frames frames(scene);
     for (const MetPair& pair : {MetPair{0, 1}, MetPair{is_outer_first ? 1U : 0U, 2}}) {
@@ -113,9 +113,9 @@ TEST(LoupeGap, HitsHaveTheColoursOfTheStage) {
           Hit{.index = 1, .pair = pair, .contact = {}, .age_s = 0.05, .gaps = shown.gaps}};
       const DrawList frame = frames.of(shown);
       const auto color_in = [](const std::vector<DrawItem>& items) {
-        return items_of<PathItem>(items, ItemId::hits).front().stroke->color;
+        return items_of<PathItem>(items, ItemId::hits).at(0).stroke.value().color;
       };
-      EXPECT_EQ(color_in(loupe_in(frame)->list.items), color_in(frame.items)) << pair[1];
+      EXPECT_EQ(color_in(loupe_in(frame).value().list.items), color_in(frame.items)) << pair[1];
     }
   }
 }

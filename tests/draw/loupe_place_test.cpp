@@ -6,7 +6,7 @@
 #include <string>
 
 #include "draw/lecture_frames.hpp"
-#include "draw/turned_round.hpp"
+#include "draw/mirrored.hpp"
 
 namespace piblocks {
 namespace {
@@ -38,8 +38,7 @@ void expect_apart(const DrawList& frame, const Fonts& fonts) {
   const std::vector<Box> all = places(frame, fonts);
   for (const Box& one : all) {
     if (one.what != "loupe" && one.what != "zoom") continue;
-    EXPECT_GE(one.x, 0) << one.what;
-    EXPECT_LE(one.right(), frame.width_px) << one.what;
+    EXPECT_TRUE(whole_of(frame).holds(one)) << one.what;
     for (const Box& other : all) {
       const bool is_inside = one.what == "zoom" && other.what == "loupe";
       if (other.what == "zoom" || other.what == one.what || is_inside) continue;
@@ -96,7 +95,7 @@ TEST(LoupePlace, CoversNothingInAnyShape) {
           try {
             const Scene scene = scene_with(lecture(digits, size) + Settings{{"view.theme", theme}} +
                                            Settings{{"show.loupe", "auto"}} + content);
-            frames.emplace(side > 0 ? scene : turned_round(scene));
+            frames.emplace(side > 0 ? scene : mirrored(scene));
           } catch (const UsageError&) {  // too small for something else
             continue;
           }

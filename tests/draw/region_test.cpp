@@ -29,10 +29,10 @@ bool contains(const PixelRect& r, int x, int y) {
 
 /// Updates `canvas`, and checks it against a fresh one.
 void expect_update(Canvas& canvas, const DrawList& list) {
-  const std::vector<std::uint32_t> before = words_of(canvas.view());
+  const std::vector<std::uint32_t> before = pixels_of(canvas.view());
   const auto span = canvas.update(list);
   const std::vector<PixelRect> changed(span.begin(), span.end());
-  const std::vector<std::uint32_t> after = words_of(canvas.view());
+  const std::vector<std::uint32_t> after = pixels_of(canvas.view());
   const std::vector<std::uint32_t> wanted = painted(list);
   const auto wrong = std::ranges::mismatch(after, wanted).in1 - after.begin();
   ASSERT_EQ(wrong, std::ssize(after)) << "an update is not what painting gives, first at pixel "

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "draw/composed_pictures.hpp"
-#include "draw/turned_round.hpp"
+#include "draw/mirrored.hpp"
 #include "render/renderings.hpp"
 
 namespace piblocks {
@@ -30,7 +30,7 @@ TEST(TwoBlocksAsBodies, ArePaintedAsTwoBlocks) {
                                          {"show.panels", panel},
                                          {"show.overlays", "digits,time,energy,momentum"}});
       const Scene bodies = as_bodies(scene);
-      const Scene turned = turned_round(scene);
+      const Scene turned = mirrored(scene);
       for (const Instant& at : {Instant(Rational(0)), Instant::turn(), Instant::last()}) {
         const DrawList picture = still_picture(scene, at);
         EXPECT_TRUE(still_picture(bodies, at) == picture);
@@ -56,7 +56,7 @@ TEST(TwoBlocksAsBodies, LoseEnergyAsTwoBlocks) {
       const DrawList picture = still_picture(scene, at);
       EXPECT_TRUE(still_picture(as_bodies(scene), at) == picture);
       EXPECT_FALSE(diagrams_of(picture).empty());
-      EXPECT_TRUE(diagrams_of(still_picture(turned_round(scene), at)) == diagrams_of(picture));
+      EXPECT_TRUE(diagrams_of(still_picture(mirrored(scene), at)) == diagrams_of(picture));
     }
   }
 }

@@ -232,10 +232,10 @@ TEST_F(FilmTest, EveryFrameIsThatOfAFullPaintInAnyOrder) {
   FrameRenderer renderer(script);
   ASSERT_EQ(renderer.frame_count(), made.frame_count());
   for (std::int64_t k = 0; k < made.frame_count(); ++k) {
-    ASSERT_EQ(words_of(renderer.frame(k)), painted(made.frame(k))) << k;
+    ASSERT_EQ(pixels_of(renderer.frame(k)), painted(made.frame(k))) << k;
     const std::int64_t other = k * 37 % made.frame_count();
-    ASSERT_EQ(words_of(renderer.frame(other)), painted(made.frame(other))) << other;
-    ASSERT_EQ(words_of(renderer.frame(k)), painted(made.frame(k))) << k << " again";
+    ASSERT_EQ(pixels_of(renderer.frame(other)), painted(made.frame(other))) << other;
+    ASSERT_EQ(pixels_of(renderer.frame(k)), painted(made.frame(k))) << k << " again";
   }
 }
 

@@ -40,7 +40,7 @@ TEST(FrameRenderer, EveryFrameIsThatOfAFullPaint) {
   ASSERT_EQ(renderer.frame_count(), expected.frame_count());
   ASSERT_GT(renderer.frame_count(), 100);
   for (std::int64_t k = 0; k < renderer.frame_count(); ++k) {
-    ASSERT_TRUE(words_of(renderer.frame(k)) == expected.frame(k)) << k;
+    ASSERT_TRUE(pixels_of(renderer.frame(k)) == expected.frame(k)) << k;
   }
 }
 
@@ -51,21 +51,21 @@ TEST(FrameRenderer, AnyOrderGivesTheSameFrames) {
   TracedRandom random(1);
   for (int i = 0; i < 200; ++i) {
     const std::int64_t k = random.integer(0, renderer.frame_count() - 1);
-    ASSERT_TRUE(words_of(renderer.frame(k)) == expected.frame(k)) << k;
-    ASSERT_TRUE(words_of(renderer.frame(k)) == expected.frame(k)) << k << " again";
+    ASSERT_TRUE(pixels_of(renderer.frame(k)) == expected.frame(k)) << k;
+    ASSERT_TRUE(pixels_of(renderer.frame(k)) == expected.frame(k)) << k << " again";
   }
 }
 
 TEST(FrameRenderer, RefusesNumbersOutOfRangeAndGoesOn) {
   const Scene scene = scene_of("64x32");
   FrameRenderer renderer(scene);
-  const auto last = words_of(renderer.frame(renderer.frame_count() - 1));
+  const auto last = pixels_of(renderer.frame(renderer.frame_count() - 1));
   constexpr auto kLowest = std::numeric_limits<std::int64_t>::min();
   constexpr auto kHighest = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t number : {std::int64_t{-1}, renderer.frame_count(), kLowest, kHighest}) {
     EXPECT_THROW(renderer.frame(number), UsageError) << number;
   }
-  EXPECT_EQ(words_of(renderer.frame(renderer.frame_count() - 1)), last);
+  EXPECT_EQ(pixels_of(renderer.frame(renderer.frame_count() - 1)), last);
 }
 
 TEST(FrameRenderer, RefusesASceneThatWasNotChecked) {
@@ -88,7 +88,7 @@ TEST(FrameRenderer, CopiesOnlyPixels) {
   Bytes buffer(kStride * 32 + 5, kUntouched);
   renderer.copy_frame(7, buffer, kStride);
   const ImageView copied{buffer.data(), 63, 32, kStride};
-  EXPECT_EQ(words_of(copied), words_of(renderer.frame(7)));
+  EXPECT_EQ(pixels_of(copied), pixels_of(renderer.frame(7)));
   for (std::size_t y = 0; y < 32; ++y) {
     const auto gap = buffer.begin() + std::ptrdiff_t(y * kStride + 63 * 4);
     EXPECT_EQ(std::count(gap, gap + 12 - (y == 31 ? 7 : 0), kUntouched), y == 31 ? 5 : 12) << y;
@@ -121,9 +121,9 @@ TEST(FrameRenderer, RefusesABufferOrStrideThatIsTooSmall) {
 
 TEST(FrameRenderer, CanBeMoved) {
   FrameRenderer first(scene_of("64x32"));
-  const auto expected = words_of(first.frame(50));
+  const auto expected = pixels_of(first.frame(50));
   FrameRenderer second = std::move(first);
-  EXPECT_EQ(words_of(second.frame(50)), expected);
+  EXPECT_EQ(pixels_of(second.frame(50)), expected);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ inline std::vector<std::string> rendered_parts(int count, const RenderJob& job) 
   return parts;
 }
 
-/// Of a file by one thread, by two, and joined of three parts.
+/// Expects the same file from one thread, from two, and joined from three parts.
 inline void expect_equal_bytes(const Script& script, const testing_support::TemporaryFolder& folder,
                                const std::string& name) {
   const Rendered whole = render_silently({script, folder / name, {}, 1});

@@ -130,7 +130,7 @@ TEST(Shutter, WhatStandsStillIsTheInstant) {
   FrameRenderer instants(closed);
   const std::int64_t last = exposed.frame_count() - 1;
   for (const std::int64_t frame : {std::int64_t{210}, std::int64_t{240}, last - 30, last}) {
-    EXPECT_TRUE(words_of(exposed.frame(frame)) == words_of(instants.frame(frame))) << frame;
+    EXPECT_TRUE(pixels_of(exposed.frame(frame)) == pixels_of(instants.frame(frame))) << frame;
   }
 }
 
@@ -162,7 +162,7 @@ TEST(Shutter, UpdatesAreWhatPaintingGives) {
       for (std::int64_t frame = 80; frame < film.frame_count(); frame += frame == 100 ? 95 : 1) {
         canvas.update(film.frame(frame));
         if (frame > 250) break;
-        ASSERT_TRUE(words_of(canvas.view()) == painted(film.frame(frame))) << "frame " << frame;
+        ASSERT_TRUE(pixels_of(canvas.view()) == painted(film.frame(frame))) << "frame " << frame;
       }
     }
   }

@@ -53,7 +53,7 @@ TEST(DiscCertaintyStress, OfDiscsInCells) {
   check_systems(draw, 30, 10);
 }
 
-/// Cells again, a disc that has a zone, and one that stays.
+/// In cells, with a disc so large that it has a zone, and an immovable disc.
 TEST(DiscCertaintyStress, OfDiscsBesideOneThatStays) {
   const auto draw = [](Random& random) {
     System system = random_gas(random, 25);

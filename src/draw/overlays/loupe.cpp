@@ -65,7 +65,7 @@ LoupeInset::LoupeInset(const DrawingContext& context, const LoupeGap& gap)
       widths_(context.font, "0123456789,.×·"),
       stage_(context.layout),
       outer_(context.colors[gap.outer]),
-      hit_color_(color_of_hit(gap.pair(), context.scene.system, context.colors)) {
+      hit_color_(color_of_hit(gap.meeting_pair(), context.scene.system, context.colors)) {
   if (gap.between) between_ = context.colors[*gap.between];
   if (gap.anchor < context.colors.size()) anchor_ = context.colors[gap.anchor];
   const FormulaSetter setter = context.setter();
@@ -132,11 +132,11 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   place_scenery(context);
 }
 
-Rect LoupeInset::turned(const Rect& r) const {
+Rect LoupeInset::mirrored(const Rect& r) const {
   return gap_.side > 0 ? r : Rect{bounds_.width - r.right(), r.y, r.width, r.height};
 }
 
-Point LoupeInset::turned(const Point& p) const {
+Point LoupeInset::mirrored(const Point& p) const {
   return gap_.side > 0 ? p : Point{bounds_.width - p.x, p.y};
 }
 
@@ -147,13 +147,13 @@ void LoupeInset::place_scenery(const DrawingContext& context) {
   const double floor_left = anchor_ ? 0 : face_px_ - line;
   std::vector<DrawItem> items;
   if (!anchor_) {
-    Point from = turned(Point{face_px_, top});
-    Point to = turned(Point{face_px_, floor_px_ + line});
+    Point from = mirrored(Point{face_px_, top});
+    Point to = mirrored(Point{face_px_, floor_px_ + line});
     if (gap_.side < 0) std::swap(from, to);
     items = hatched_wall(from, to, context);
   }
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
-                                   turned(Rect{floor_left, floor_px_, bounds_.width, line}),
+                                   mirrored(Rect{floor_left, floor_px_, bounds_.width, line}),
                                    palette_.wall, std::nullopt});
   scenery_ = plate_of(ItemId::wall, {0, 0, bounds_.width, bounds_.height}, std::move(items));
 }

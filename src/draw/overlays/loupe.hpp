@@ -51,9 +51,9 @@ class LoupeInset {
   LoupeTexts texts() const { return {widest_zoom_px_, shows_slow_motion()}; }
   void place(const DrawingContext& context, const LoupePlace& found);
   void place_scenery(const DrawingContext& context);
-  /// Turns the inset round if its anchor is on the right.
-  Rect turned(const Rect& r) const;
-  Point turned(const Point& p) const;
+  /// Mirrored left to right if the anchor is on the right.
+  Rect mirrored(const Rect& r) const;
+  Point mirrored(const Point& p) const;
 
   DrawList picture(const FrameState& shown, double zoomed) const;
   void add_blocks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
@@ -78,7 +78,7 @@ class LoupeInset {
   std::function<std::string(const FrameState&)> slow_text_;  ///< may be empty
   Rect bounds_;                                              ///< in whole pixels of the frame
   Point zoom_end_;                 ///< right end of the zoom's baseline, in the frame
-  bool is_zoom_end_left_ = false;  ///< that is the left end
+  bool is_zoom_end_left_ = false;  ///< whether zoom_end_ is the left end
   // Lines go from a place at the outer block to two corners of the inset; in the frame.
   Layout stage_;
   double lines_y_ = 0;

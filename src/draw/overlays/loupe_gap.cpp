@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kLoupeKey = "show.loupe";
 /// Of positions, which are doubles; gaps of two blocks beside something immovable are known better.
-constexpr int kMaxZoomOfDoubles = 1'000'000'000;
+constexpr int kMaxZoomOfPositions = 1'000'000'000;
 
 double most_gap_px(const LayoutContext& context) {
   return style::kMaxLoupeGap * context.sizes.short_side;
@@ -138,7 +138,7 @@ LoupeGap gap_between(const Collision& met, const System& system) {
 LoupeGap gap_of_bodies(const DrawingContext& context, const Loupe& loupe) {
   const Log& log = context.log;
   const Span window = span_of_window(loupe, log).value();
-  if (loupe.window->zoom > kMaxZoomOfDoubles) {
+  if (loupe.window->zoom > kMaxZoomOfPositions) {
     throw UsageError(fmt::format(
         "{}: enlarges these bodies at most 1e9 times; choose a smaller factor", kLoupeKey));
   }
@@ -172,7 +172,7 @@ std::optional<Loupe> loupe_of(const LayoutContext& context) {
 
 }  // namespace
 
-MetPair LoupeGap::pair() const noexcept {
+MetPair LoupeGap::meeting_pair() const noexcept {
   const auto [low, high] = std::minmax({between.value_or(anchor), outer});
   return {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high)};
 }

@@ -22,11 +22,13 @@ struct LoupeGap {
   double least_px = 0;                      ///< of what it shows, in pixels of the stage
   std::optional<Span> window = {};          ///< in which it is shown
 
-  /// Those that meet where the gap, or what is left of it, closes.
-  MetPair pair() const noexcept;
-  FrameNeeds needs() const noexcept { return {.gaps = between.has_value(), .hits = true}; }
-  /// y2 is what is enlarged. Without a block in between both are the gap, as exact as positions
-  /// are.
+  /// The two that meet when the gap closes; of three, the one in between and the outer one.
+  MetPair meeting_pair() const noexcept;
+  FrameNeeds needs() const noexcept {
+    return {.gaps = between.has_value(), .hits = between.has_value()};
+  }
+  /// The loupe enlarges y2. Without a block in between y1 and y2 are both the gap, computed from
+  /// positions, which are doubles.
   Gaps gaps_in(const FrameState& shown, const Layout& layout) const;
 };
 

@@ -93,7 +93,7 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
 Contact LoupeInset::contact_at(double x_px, double left_px, double right_px,
                                const Color& color) const {
   if (gap_.side < 0) std::swap(left_px, right_px);
-  return contact_of(turned(Point{x_px, 0}).x, floor_px_, left_px, right_px, color);
+  return contact_of(mirrored(Point{x_px, 0}).x, floor_px_, left_px, right_px, color);
 }
 
 void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
@@ -107,7 +107,7 @@ void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
       contact_at(face_px_, anchor_ ? anchor_height_px_ : HUGE_VAL, inner_height_px_, between_.line);
   for (std::size_t n = 0; n < shown.hits.size(); ++n) {
     const Hit& hit = shown.hits[n];
-    const bool is_outer = hit.pair == gap_.pair();
+    const bool is_outer = hit.pair == gap_.meeting_pair();
     if (!gap_.between && !is_outer) continue;
     marks_->add_arc(nth(ItemId::hits, n), hit.age_s, is_outer ? at_outer(hit.gaps.y2) : at_anchor,
                     items);
@@ -117,7 +117,7 @@ void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
     std::array both{at_anchor, at_outer(gap)};
     if (gap_.side < 0) std::swap(both[0], both[1]);
     marks_->add_glow(shown.hits_per_s, both, items);
-  } else if (std::ranges::count(shown.met_pairs, gap_.pair()) > 0) {
+  } else if (std::ranges::count(shown.met_pairs, gap_.meeting_pair()) > 0) {
     marks_->add_glow(shown.hits_per_s, std::array{at_outer(gap)}, items);
   }
 }
@@ -128,7 +128,7 @@ void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
   const auto add = [&](ItemId id, double left, double right, double height,
                        const BlockColors& colors) {
     const Rect block{left, floor_px_ - height, std::max(0.0, right - left), height};
-    add_rectangles(id, block_at(turned(block), colors, line_px_), items);
+    add_rectangles(id, block_at(mirrored(block), colors, line_px_), items);
   };
   // The far sides are outside.
   const double beyond = 2 * line_px_;
@@ -141,17 +141,17 @@ void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
   const double swept =
       std::clamp((hits - kSweepHits / 4) / (kSweepHits - kSweepHits / 4), 0.0, 1.0);
   if (swept > 0) {
-    items.emplace_back(RectangleItem{
-        nth(ItemId::red_block, kSweep),
-        turned(Rect{face_px_, floor_px_ - inner_height_px_, outer_x - face_px_, inner_height_px_}),
-        faded(between_.fill, swept * kSweepAlpha), std::nullopt});
+    items.emplace_back(RectangleItem{nth(ItemId::red_block, kSweep),
+                                     mirrored(Rect{face_px_, floor_px_ - inner_height_px_,
+                                                   outer_x - face_px_, inner_height_px_}),
+                                     faded(between_.fill, swept * kSweepAlpha), std::nullopt});
   }
   add_between(face_px_ + gaps.y1 * px_per_unit, 1 - swept * (1 - kFastBlock), items);
 }
 
 void LoupeInset::add_between(double x_px, double seen, std::vector<DrawItem>& items) const {
   const Rect block =
-      turned(Rect{x_px, floor_px_ - inner_height_px_, between_px_, inner_height_px_});
+      mirrored(Rect{x_px, floor_px_ - inner_height_px_, between_px_, inner_height_px_});
   BlockColors colors = between_;
   colors.fill = faded(colors.fill, seen);
   colors.edge = faded(colors.edge, seen);

@@ -25,7 +25,7 @@ struct Contact {
 Contact contact_of(double x_px, double floor_px, double left_px, double right_px,
                    const Color& color);
 
-/// In the colour of the second one, if collisions move it.
+/// The line colour of the second body; of the first if the second is immovable or a wall.
 Color color_of_hit(const MetPair& pair, const System& system,
                    const std::vector<BlockColors>& colors);
 

@@ -116,8 +116,7 @@ class LabelRoom {
  public:
   explicit LabelRoom(const DrawingContext& context)
       : layout_(context.layout),
-        left_(text_columns(context).left),
-        right_(text_columns(context).right),
+        columns_(text_columns(context)),
         pad_(kBelowLabel * context.sizes.short_side) {}
 
   void add(Label label, const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -127,15 +126,17 @@ class LabelRoom {
     double middle = block.x + block.width / 2;
     const double pad = std::min(pad_, std::max(0.0, block.width / 2 - half - kRounded_px));
     if (!label.is_inside) {
-      middle = std::clamp(middle, left_ + half, std::max(left_ + half, right_ - half));
+      middle = std::clamp(middle, columns_.left + half,
+                          std::max(columns_.left + half, columns_.right - half));
     } else {
-      const double least = std::max(left_, block.x + pad) + half;
-      const double most = std::min(right_, block.right() - pad) - half;
+      const double least = std::max(columns_.left, block.x + pad) + half;
+      const double most = std::min(columns_.right, block.right() - pad) - half;
       middle = least <= most ? std::clamp(middle, least, most) : leave(label, block, shown);
     }
     // By whole pixels, its figures keep their distances, and encoders find it again.
     double& x = label.text.origin.x;
-    x = std::min(std::max(std::round(x + middle), std::ceil(left_)), std::floor(right_ - 2 * half));
+    x = std::min(std::max(std::round(x + middle), std::ceil(columns_.left)),
+                 std::floor(columns_.right - 2 * half));
     items.emplace_back(std::move(label.text));
   }
 
@@ -145,9 +146,9 @@ class LabelRoom {
   double leave(Label& label, const Rect& block, const FrameState& shown) const {
     const double half = label.half_px();
     label.text.color = label.beside;
-    const bool goes_right = block.right() > right_;
-    const double middle = goes_right ? std::min(block.x - pad_, right_) - half
-                                     : std::max(block.right() + pad_, left_) + half;
+    const bool goes_right = block.right() > columns_.right;
+    const double middle = goes_right ? std::min(block.x - pad_, columns_.right) - half
+                                     : std::max(block.right() + pad_, columns_.left) + half;
     bool is_free = true;
     for (std::size_t i = 0; i < layout_.shapes.size() && is_free; ++i) {
       const Rect other = layout_.at(i, shown);
@@ -156,14 +157,13 @@ class LabelRoom {
     }
     if (is_free) return middle;
     label.text.origin.y = block.y - pad_;
-    return std::clamp(block.x + block.width / 2, left_ + half,
-                      std::max(left_ + half, right_ - half));
+    return std::clamp(block.x + block.width / 2, columns_.left + half,
+                      std::max(columns_.left + half, columns_.right - half));
   }
 
   Layout layout_;
-  // Labels above or beside their blocks stay between these.
-  double left_;
-  double right_;
+  // Where labels above or beside their blocks stay.
+  Columns columns_;
   double pad_;
 };
 
@@ -199,7 +199,7 @@ void check_room(const DrawingContext& context, const BlockTexts& texts, std::siz
       std::max(0.0, context.layout.above_px), texts.is_mass(body) ? "'masses'" : "the label"));
 }
 
-/// @param baseline  on the body, or above it
+/// @param baseline  from where the body's place is measured: the frame's top, or a disc's centre
 Label label_at(const DrawingContext& context, ItemId id, std::size_t body, const std::string& text,
                bool is_inside, double baseline) {
   const BlockColors& colors = context.colors[body];

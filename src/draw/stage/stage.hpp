@@ -42,7 +42,7 @@ LineWalls seen_walls(const System& system, const View& view);
 /// What is seen of the axis of a line: nothing is drawn behind a wall's face.
 Range seen_axis(const System& system, const View& view);
 
-/// Columns of the frame, in pixels.
+/// From one column of pixels to another.
 struct Columns {
   double left = 0;
   double right = 0;
@@ -50,7 +50,7 @@ struct Columns {
 };
 /// Where texts about a line may be.
 Columns text_columns(const DrawingContext& context);
-/// Those of them that are not behind walls, and a little apart from their faces.
+/// The part of text_columns() between the walls, a little apart from their faces.
 Columns text_columns_between_walls(const DrawingContext& context);
 
 /// The bodies, and what hides those that leave a row.

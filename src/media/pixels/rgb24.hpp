@@ -16,7 +16,7 @@ constexpr std::size_t packed_bytes(bool has_alpha) { return has_alpha ? 4 : 3; }
 /// @param bytes  takes packed_bytes() for each pixel; must not overlap the frame.
 void pack_row(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes);
 
-/// The same as R, G, B, straight alpha, also of a frame without alpha.
+/// The same as R, G, B and straight alpha, which is 255 if the frame has none.
 void pack_row_rgba(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes);
 
 /// A colour sample before it was multiplied by alpha / 255, rounded half up; 0 if alpha is 0.

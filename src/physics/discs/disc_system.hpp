@@ -31,7 +31,7 @@ struct DiscSystem {
   std::vector<Bound> bounds = {};
   std::vector<WallLine> walls = {};
   Units units = {};
-  bool has_immovable = false;  ///< discs
+  bool has_immovable = false;  ///< whether any disc is immovable
 
   bool is_movable(std::uint32_t disc) const { return !has_immovable || masses[disc] != kNever; }
 };

@@ -12,17 +12,17 @@ inline Scene as_bodies(Scene scene) {
   return scene;
 }
 
-/// The same, turned round in its frame.
-inline Scene turned_round(const Scene& scene) {
-  Scene turned = as_bodies(scene);
-  System& system = turned.system;
+/// The same scene, mirrored left to right.
+inline Scene mirrored(const Scene& scene) {
+  Scene result = as_bodies(scene);
+  System& system = result.system;
   for (Body& body : system.bodies) {
     body.position[0] *= -1;
     body.velocity[0] *= -1;
   }
   system.walls[0] = {"right", {-system.walls[0].point[0]}, {-1}};
-  turned.view.x = {-scene.view.x.high, -scene.view.x.low};
-  return turned;
+  result.view.x = {-scene.view.x.high, -scene.view.x.low};
+  return result;
 }
 
 }  // namespace piblocks
