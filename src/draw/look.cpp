@@ -10,11 +10,14 @@ namespace {
 constexpr Color kWhite = {255, 255, 255};
 constexpr Color kBlack = {0, 0, 0};
 
+// Blue and Red of Mathematica.
+constexpr Color kPureBlue = {0, 0, 255};
+constexpr Color kPureRed = {255, 0, 0};
 constexpr Palette kArticle = {
     .background = kWhite,
     .wall = kBlack,
-    .blue = {{38, 84, 204}, {22, 52, 134}, kWhite, {38, 84, 204}, {38, 84, 204}, 0, "blue"},
-    .red = {{214, 48, 40}, {138, 24, 20}, kWhite, {214, 48, 40}, {206, 42, 34}, 0, "red"},
+    .blue = {kPureBlue, kPureBlue, kWhite, kPureBlue, kPureBlue, 0, "blue"},
+    .red = {kPureRed, kPureRed, kBlack, kPureRed, {206, 42, 34}, 0, "red"},
     .text = {16, 16, 16},
     .muted = {96, 96, 96},
     .accent = {168, 72, 0},
@@ -181,7 +184,7 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
   const double share = is_dark ? 0.5 : palette.red.bars > 0 ? 0.7 : 0.375;
   Color edge = mixed(fill, is_dark ? kWhite : kBlack, share);
   if (theme == Theme::print) edge = palette.wall;
-  if (is_lecture(theme)) edge = fill;
+  if (is_lecture(theme) || theme == Theme::article) edge = fill;
   const Color text = contrast(fill, kWhite) > contrast(fill, kBlack) ? kWhite : kBlack;
   const Color line = readable(fill, palette, 3.2);
   return {fill, readable(edge, palette, 3.2), text, line, readable(fill, palette, 4.8), 0, ""};

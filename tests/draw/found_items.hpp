@@ -66,6 +66,15 @@ const Item& item_of(const DrawList& list, ItemId id) {
   return found != nullptr ? *found : throw std::logic_error("no such item");
 }
 
+/// The room that the article's dashed wall takes.
+inline Rect wall_of(const DrawList& list) {
+  const auto& line = item_of<PathItem>(list, ItemId::wall);
+  Rect room = line.points.bounds();
+  room.x -= line.stroke->width_px / 2;
+  room.width += line.stroke->width_px;
+  return room;
+}
+
 inline std::string text_of(const DrawList& list, ItemId id) {
   const auto* text = find_item<TextItem>(list, id);
   return text != nullptr ? text->text : std::string();

@@ -15,11 +15,6 @@
 namespace piblocks {
 namespace {
 
-double right_of_wall(const DrawList& list) {
-  const Rect& wall = std::get<RectangleItem>(list.items.front()).bounds;
-  return wall.right();
-}
-
 /// From the leftmost to the rightmost point of an arrow; the wrong way round if none is drawn.
 std::pair<double, double> reach_of_arrow(const DrawList& list, std::size_t n) {
   std::pair<double, double> reach{1e9, -1e9};
@@ -56,7 +51,7 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
       const std::vector<TextItem> figures = items_of<TextItem>(list.items, ItemId::velocities);
       ASSERT_EQ(figures.size(), 2U);
       const TextItem& blue = figures[1];
-      EXPECT_GT(blue.origin.x, right_of_wall(list));
+      EXPECT_GT(blue.origin.x, wall_of(list).right());
       EXPECT_LT(blue.origin.x + font.width_em(blue.text) * blue.size_px, figures[0].origin.x);
     }
   }
@@ -181,7 +176,7 @@ TEST(Labels, FiguresOfTheRulerStandBelowTheirMarks) {
   for (const char* size : {"640x360", "480x360", "1080x1920", "3840x2160", "1600x300"}) {
     const Pictures pictures(3, {{"show.overlays", "ruler"}, {"view.size", size}});
     const DrawList list = pictures.at(0);
-    const Rect& wall = std::get<RectangleItem>(list.items.front()).bounds;
+    const Rect wall = wall_of(list);
     const std::vector<TextItem> figures = items_of<TextItem>(list.items, ItemId::ruler);
     EXPECT_GT(figures.size(), 3U);
     for (const TextItem& figure : figures) {

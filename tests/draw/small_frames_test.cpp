@@ -72,6 +72,7 @@ class Checker {
     check_inside({item.origin.x, item.origin.y - height_px, width_px, height_px}, item.text);
   }
   void check_item(const PathItem& item) {
+    if (item.id == ItemId::wall) check_inside(item.points.bounds(), "the wall");
     if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
     check_inside(item.points.bounds(), "a path");
   }

@@ -26,8 +26,7 @@ TEST(Stage, BlocksTouchWhereTheyCollide) {
   EXPECT_NEAR(rectangle(blocks, ItemId::blue_block).bounds.right(),
               rectangle(blocks, ItemId::red_block).bounds.x, 1e-9);
   const DrawList wall = pictures.after(2);
-  EXPECT_NEAR(rectangle(wall, ItemId::wall).bounds.right(),
-              rectangle(wall, ItemId::blue_block).bounds.x, 1e-9);
+  EXPECT_NEAR(wall_of(wall).right(), rectangle(wall, ItemId::blue_block).bounds.x, 1e-9);
 }
 
 TEST(Stage, BlocksStandOnOneBase) {
@@ -111,11 +110,12 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
                                         {2, 2}}) {
       const Pictures pictures(article_scene(digits, width, height));
       const DrawList list = pictures.after(pictures.log->last());
-      const Rect wall = rectangle(list, ItemId::wall).bounds;
+      const Rect wall = wall_of(list);
       const TextItem& label = text(list, ItemId::label);
       const TextItem& count = text(list, ItemId::count);
       const double end = count.origin.x + font.width_em(count.text) * count.size_px;
       EXPECT_GT(wall.width, 0);
+      EXPECT_LT(wall.width, wall.height) << "a line";
       EXPECT_GE(wall.x, 0);
       EXPECT_LE(wall.bottom(), height);
       EXPECT_GE(label.origin.x, 0);
@@ -131,7 +131,7 @@ TEST(Stage, NothingMovesButTheBlocksAndTheCount) {
   const Pictures pictures(article_scene(6, 1920, 1080));
   const DrawList start = pictures.at(0);
   const DrawList later = pictures.at(4);
-  EXPECT_EQ(rectangle(start, ItemId::wall), rectangle(later, ItemId::wall));
+  EXPECT_EQ(wall_of(start), wall_of(later));
   EXPECT_EQ(text(start, ItemId::label), text(later, ItemId::label));
   EXPECT_EQ(text(start, ItemId::count).origin, text(later, ItemId::count).origin);
   EXPECT_NE(rectangle(start, ItemId::blue_block), rectangle(later, ItemId::blue_block));
@@ -154,7 +154,7 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
       const double end = count.origin.x + font.width_em(count.text) * count.size_px;
       EXPECT_GT(count.text.size(), std::size_t(digits));
       EXPECT_GT(label.origin.x, 0);
-      EXPECT_GT(count.origin.x, label.origin.x + font.width_em(label.text) * label.size_px);
+      EXPECT_NEAR(count.origin.x, label.origin.x + font.width_em(label.text) * label.size_px, 1e-6);
       EXPECT_NEAR(label.origin.x, 640 - end, 1e-6) << "in the middle";
       if (from == std::string_view("0")) continue;
       EXPECT_EQ(text(pictures.at(0), ItemId::label), label) << "nothing moves during the film";
@@ -181,7 +181,7 @@ TEST(Stage, EdgesThatDoNotMoveAreSharp) {
   for (const auto& [width, height] :
        {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {854, 480}}) {
     const DrawList list = Pictures(article_scene(3, width, height)).at(4);
-    const Rect wall = rectangle(list, ItemId::wall).bounds;
+    const Rect wall = wall_of(list);
     const Rect blue = rectangle(list, ItemId::blue_block).bounds;
     EXPECT_TRUE(is_whole(wall.x) && is_whole(wall.y) && is_whole(wall.right()));
     EXPECT_TRUE(is_whole(blue.y) && is_whole(blue.height));
@@ -196,7 +196,7 @@ TEST(Stage, FollowsTheScenesGeometry) {
   const Pictures pictures(scene);
   const Layout layout = lay_out(scene, pictures.log->last());
   const DrawList list = pictures.at(0);
-  const Rect wall = rectangle(list, ItemId::wall).bounds;
+  const Rect wall = wall_of(list);
   const Rect blue = rectangle(list, ItemId::blue_block).bounds;
   const Rect red = rectangle(list, ItemId::red_block).bounds;
   EXPECT_NEAR(blue.width, 0.5 * layout.scale, 1e-9);

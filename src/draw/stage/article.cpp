@@ -22,13 +22,12 @@ constexpr double kUsualAspect = 16.0 / 9;
 constexpr double kMostBannerText = 2.2;
 // In ems of the label.
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
-constexpr double kWordSpace = 0.34;
 /// Overlays take at most this part of the area's height in addition.
 constexpr double kMostOfArea = 0.3;
 /// Sums of the same advances in different order differ by less.
 constexpr double kNegligible_em = 1e-6;
-// In line widths.
-constexpr double kDash = 4;
+constexpr double kDash = 4;         // in line widths
+constexpr double kMostWall = 0.25;  // width of the line, in the scene
 
 /// Size of type. A banner is low and wide, and its text may take more of its height.
 double text_size(const Rect& area) {
@@ -73,7 +72,7 @@ class ArticleBlocks {
     }
     const Point origin{label.x + line.label_em * text_px, label.y};
     items.emplace_back(
-        TextItem{ItemId::label, label, std::string(kLabelText), text_px, palette_.muted});
+        TextItem{ItemId::label, label, std::string(kLabelText), text_px, palette_.text});
     if (lit > 0) {
       items.emplace_back(
           TextItem{ItemId::lit_count, origin, text.substr(0, lit), text_px, palette_.accent});
@@ -151,7 +150,7 @@ Layout lay_out_article(const LayoutContext& context, const Integer& longest_coun
   const Font& font = context.font;
   const double margin = article_style::kMargin * article_style::short_measure(area);
   CountLine line;
-  line.label_em = font.width_em(kLabelText) + kWordSpace;
+  line.label_em = font.width_em(kLabelText);
   const double line_em =
       line.label_em + count_width_em(longest_count, context.scene.show.base, font);
   line.count_em = line_em - line.label_em;
@@ -178,20 +177,22 @@ Layout lay_out_article(const LayoutContext& context, const Integer& longest_coun
 
 std::vector<DrawItem> article_walls(const DrawingContext& context) {
   const Layout& layout = context.layout;
-  const Range& y = context.scene.view.y;
-  const double height = length(y);
+  const View& view = context.scene.view;
   const LineWalls walls = line_walls(context.scene.system);
+  const double line_px = std::min(layout.line_px, kMostWall * layout.scale);
+  const Stroke dashes{context.palette.wall, line_px, kDash * line_px};
   std::vector<DrawItem> items;
-  const auto add = [&](double left) {
-    const Point corner = layout.at(left, to_double(y.low) + height);
-    items.emplace_back(
-        RectangleItem{nth(ItemId::wall, items.size()),
-                      {corner.x, corner.y, layout.scale, height * layout.scale},
-                      std::nullopt,
-                      Stroke{context.palette.wall, layout.line_px, kDash * layout.line_px}});
+  // Beside the face, so that the line is whole where a block touches it.
+  const auto add = [&](const Rational& face, double outwards) {
+    const Point top = layout.at(to_double(face), to_double(view.y.high));
+    const double x = top.x + outwards * line_px / 2;
+    const double bottom = layout.at(0, to_double(view.y.low)).y;
+    items.emplace_back(PathItem{nth(ItemId::wall, items.size()),
+                                std::vector<Point>{{x, top.y}, {x, bottom}}, false, std::nullopt,
+                                dashes});
   };
-  if (walls.left) add(to_double(*walls.left) - 1);
-  if (walls.right) add(to_double(*walls.right));
+  if (walls.left) add(*walls.left, -1);
+  if (walls.right) add(*walls.right, 1);
   return items;
 }
 
