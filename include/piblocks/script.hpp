@@ -20,6 +20,9 @@ namespace piblocks {
 struct Card {
   std::vector<std::string> lines;  ///< 1 … kMaxCardLines, not empty
   Rational length_s = 2;           ///< of video, > 0; rounded up to whole frames
+  /// What the lines become while the card is shown: each with more characters, which slide in, and
+  /// after them new lines. All lines are large then. Empty, or from as many lines to kMaxCardLines.
+  std::vector<std::string> becomes = {};
 };
 
 /// How runs that are compared share the frame.
@@ -93,8 +96,8 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 /// "restitution" sets "blocks.restitution" and "wall.restitution".
 ///
 /// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
-/// of a scene except those of the whole film, and also "card", "seconds", "compare", "split" and
-/// "fade".
+/// of a scene except those of the whole film, and also "card", "becomes", "seconds", "compare",
+/// "split" and "fade".
 class ScriptBuilder {
  public:
   ScriptBuilder();

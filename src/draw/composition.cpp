@@ -166,8 +166,8 @@ class Composer {
   void add_panels() {
     // In the order of Panel.
     constexpr std::array kPanels = {velocity_panel, position_panel,     unfolded_panel,
-                                    time_panel,     count_panel,        ellipse_panel,
-                                    mirrors_panel,  conservation_panel, certainty_panel,
+                                    time_panel,     count_panel,        velocity_panel,
+                                    unfolded_panel, conservation_panel, certainty_panel,
                                     speeds_panel,   separation_panel};
     const std::vector<Panel>& panels = scene_.show.panels;
     for (std::size_t i = 0; i < panels.size(); ++i) {

@@ -22,7 +22,7 @@ constexpr double kSmallTop = 0.46;
 
 // Of the root sign, in ems.
 constexpr double kBarAbove = 0.09;
-constexpr double kBarThickness = 0.055;
+constexpr double kBarThickness = 0.07;
 constexpr double kRootWidth = 0.56;
 constexpr double kAfterRoot = 0.07;
 
@@ -34,12 +34,12 @@ std::string utf8_of(std::uint32_t code) {
           byte(0x80 | ((code >> 6) & 0x3F)), byte(0x80 | (code & 0x3F))};
 }
 
-/// The italic letter of Unicode's block "Mathematical Alphanumeric Symbols"; 0 if it has none.
+/// The bold italic letter of Unicode's block "Mathematical Alphanumeric Symbols", which is as heavy
+/// as text beside it; 0 if it has none.
 std::uint32_t italic_of(std::uint32_t code) {
-  if (code == 'h') return 0;  // its place is taken by another block
-  if (code >= 'A' && code <= 'Z') return 0x1D434 + (code - 'A');
-  if (code >= 'a' && code <= 'z') return 0x1D44E + (code - 'a');
-  if (code >= 0x3B1 && code <= 0x3C9) return 0x1D6FC + (code - 0x3B1);
+  if (code >= 'A' && code <= 'Z') return 0x1D468 + (code - 'A');
+  if (code >= 'a' && code <= 'z') return 0x1D482 + (code - 'a');
+  if (code >= 0x3B1 && code <= 0x3C9) return 0x1D736 + (code - 0x3B1);
   return 0;
 }
 

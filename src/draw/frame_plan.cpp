@@ -36,7 +36,9 @@ constexpr double kLeastBesideLabel = 0.6;
 /// The counter's part of a row's width, at most.
 constexpr double kMostCounter = 0.6;
 constexpr double kRowCounter = 0.35;
-/// Greatest height of a stage without overlays, where there are diagrams.
+/// Greatest height of a stage without overlays, where there is one diagram, and where there are
+/// more.
+constexpr double kStripStage = 0.18;
 constexpr double kPlainStage = 0.24;
 /// Part of the frame's longer side that discs have where there are diagrams.
 constexpr double kPlaneStage = 0.56;
@@ -299,7 +301,7 @@ class FramePlanner {
   /// Where there are diagrams, the stage is as high as it has to be.
   /// @param room_px  for both
   double stage_height(double room_px) {
-    double height = kPlainStage;
+    double height = show_.panels.size() == 1 ? kStripStage : kPlainStage;
     if (show_.has(Overlay::velocities)) height += kArrowRoom;
     if (show_.has(Overlay::masses)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;

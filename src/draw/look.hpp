@@ -96,6 +96,8 @@ inline constexpr double kHitDot = 0.0055;
 /// Opacity of a filled area behind text or lines. It keeps a contrast of 2 with the background.
 inline constexpr double kWedgeFill = 0.8;
 
+inline constexpr double kProtractor = 0.38;  ///< radius of the arc around equal angles, at most
+
 inline constexpr double kWallWidth = 0.025;
 inline constexpr double kHitReach = 0.06;  ///< how far the mark of a hit grows
 inline constexpr double kLoupeWidth = 0.36;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/text.hpp"
 #include "draw/font.hpp"
 #include "draw/look.hpp"
 
@@ -20,6 +21,7 @@ constexpr double kLeastShrink = 0.4;
 // In ems.
 constexpr double kBelowHeading = 0.75;  // of the heading, to the next line's capitals
 constexpr double kBetweenLines = 0.8;
+constexpr double kStackStep = 1.15;  ///< from one large line to the next
 
 double fitted_px(const std::string& text, double size_px, double width_px, const Font& font) {
   font.check(text, "card");
@@ -131,6 +133,65 @@ DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
                        std::round(baseline)};
     list.items.emplace_back(TextItem{nth(ItemId::card, i), origin, lines[i], size_px,
                                      i == 0 ? palette.text : palette.muted, font.face()});
+  }
+  return list;
+}
+
+ChangingCard::ChangingCard(const std::vector<std::string>& lines,
+                           const std::vector<std::string>& becomes, const View& view)
+    : empty_{view.width_px, view.height_px, background_of(view), {}},
+      palette_(palette_of(view.theme)),
+      size_before_(lines.size()),
+      size_px_(style::kCounter * Sizes(view).short_side),
+      face_(text_face_of(view.theme)) {
+  const Font font(face_);
+  const double inner_px = view.width_px - 2 * style::kCardMargin * Sizes(view).short_side;
+  for (const std::string& line : becomes) {
+    size_px_ = std::min(size_px_, fitted_px(line, size_px_, inner_px, font));
+  }
+  const double high = view.height_px / (kStackStep * double(becomes.size() + 1));
+  size_px_ = std::min(size_px_, high);
+  for (std::size_t i = 0; i < becomes.size(); ++i) {
+    std::string_view left = i < lines.size() ? std::string_view(lines[i]) : std::string_view();
+    Line& line = lines_.emplace_back();
+    for (std::string_view rest = becomes[i]; !rest.empty();) {
+      const std::string_view next = rest.substr(0, step_bytes(rest));
+      const bool is_new = i < lines.size() && !left.starts_with(next);
+      if (line.empty() || line.back().is_new != is_new) line.push_back({{}, is_new, 0});
+      line.back().text += next;
+      rest.remove_prefix(next.size());
+      if (!is_new) left.remove_prefix(std::min(left.size(), next.size()));
+    }
+    for (Piece& piece : line) piece.width_px = font.width_em(piece.text) * size_px_;
+  }
+}
+
+DrawList ChangingCard::picture(double share) const {
+  double widest = 0;
+  for (const Line& line : lines_) {
+    double width = 0;
+    for (const Piece& piece : line) width += piece.width_px;
+    widest = std::max(widest, width);
+  }
+  const double left = (empty_.width_px - widest) / 2;
+  const double step = kStackStep * size_px_;
+  const double high = double(lines_.size() - 1) * step + Font::kCapHeight_em * size_px_;
+  double baseline = (empty_.height_px - high) / 2 + Font::kCapHeight_em * size_px_;
+  DrawList list = empty_;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < lines_.size(); ++i, baseline += step) {
+    const bool is_new_line = i >= size_before_;
+    double x = left;
+    for (const Piece& piece : lines_[i]) {
+      const bool is_new = piece.is_new || is_new_line;
+      const Color color = is_new ? faded(palette_.accent, share) : palette_.text;
+      const ItemId id = nth(ItemId::card, n++);
+      if (!is_new || share > 0) {
+        list.items.emplace_back(
+            TextItem{id, {x, std::round(baseline)}, piece.text, size_px_, color, face_});
+      }
+      x += (piece.is_new ? share : 1) * piece.width_px;
+    }
   }
   return list;
 }

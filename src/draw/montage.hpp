@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "draw/look.hpp"
 
 namespace piblocks {
 
@@ -16,6 +17,34 @@ namespace piblocks {
 /// do not fit are made smaller. @param lines  at least one, not empty.
 /// @throws UsageError if a line cannot be set, or is too long for the frame.
 DrawList compose_card(const std::vector<std::string>& lines, const View& view);
+
+/// A card whose lines become others: of one size, each beginning at the same place.
+class ChangingCard {
+ public:
+  /// @param lines, becomes  as of a Card without problems
+  /// @throws UsageError as compose_card()
+  ChangingCard(const std::vector<std::string>& lines, const std::vector<std::string>& becomes,
+               const View& view);
+
+  /// @param share  of the way from the lines to what they become, 0 … 1
+  DrawList picture(double share) const;
+
+ private:
+  /// Characters that stay, or that slide in.
+  struct Piece {
+    std::string text;
+    bool is_new;
+    double width_px;
+  };
+  using Line = std::vector<Piece>;
+
+  DrawList empty_;
+  Palette palette_;
+  std::vector<Line> lines_;
+  std::size_t size_before_;  ///< lines that are there from the beginning
+  double size_px_;
+  Face face_;
+};
 
 /// The frame in equal cells.
 class SplitScreen {

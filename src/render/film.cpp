@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/smooth_step.hpp"
 #include "core/stop.hpp"
 #include "draw/montage.hpp"
 #include "media/png/png_reader.hpp"
@@ -41,6 +42,21 @@ FilmSegment made_from(const Segment& segment, const View& view, const FilmMaking
 std::string place_of(const Storyboard& story, std::size_t segment) {
   const std::string& origin = story.segments[segment].origin;
   return origin.empty() ? fmt::format("part {}", segment + 1) : origin;
+}
+
+/// What a card shows in each of its frames.
+std::function<DrawList(std::int64_t)> card_frames(const Card& card, const View& film) {
+  if (card.becomes.empty()) {
+    return [picture = compose_card(card.lines, film)](std::int64_t /*number*/) { return picture; };
+  }
+  constexpr double kFrom = 0.4;  // of the card's length
+  constexpr double kLength_s = 0.6;
+  const double rate = to_double(film.frame_rate);
+  const double from_s = kFrom * to_double(card.length_s);
+  return [=, picture = ChangingCard(card.lines, card.becomes, film)](std::int64_t number) {
+    const double passed = (double(number) / rate - from_s) / kLength_s;
+    return picture.picture(smooth_step(std::clamp(passed, 0.0, 1.0)));
+  };
 }
 
 /// The volume of both segments of a fade. It follows the opacity of their pictures.
@@ -158,13 +174,13 @@ FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film,
 }
 
 FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& making) {
-  if (making.use == FilmUse::pictures) card_ = compose_card(card.lines, film);
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > to_integer(kMaxFrames)) {
     throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
                                  readable(frames), readable(to_integer(kMaxFrames))));
   }
   frame_count_ = frames.get_si();
+  if (making.use == FilmUse::pictures) card_ = card_frames(card, film);
 }
 
 void FilmSegment::show_one(Scene scene, const FilmMaking& making) {
@@ -204,7 +220,7 @@ PixelRect FilmSegment::cell(std::size_t run) const {
 }
 
 DrawList FilmSegment::frame(std::int64_t number) const {
-  if (runs_.empty()) return card_;
+  if (runs_.empty()) return card_(number);
   if (!split_) return runs_.front().frame(*schedule_, number);
   std::vector<DrawList> pictures;
   pictures.reserve(runs_.size());

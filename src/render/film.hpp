@@ -109,8 +109,8 @@ class FilmSegment {
   std::int64_t frame_count_ = 0;
   std::vector<FilmRun> runs_;
   std::optional<Schedule> schedule_;
-  std::optional<SplitScreen> split_;  ///< if there are several runs
-  DrawList card_;                     ///< if there are none
+  std::optional<SplitScreen> split_;                   ///< if there are several runs
+  std::function<DrawList(std::int64_t number)> card_;  ///< if there are none
 };
 
 /// A segment and its place in the film.

@@ -152,8 +152,9 @@ std::string part_of(const Segment& segment) {
   std::string text = "\n[[part]]\n";
   if (segment.fade_s != 0) text += fmt::format("fade = {}\n", scalar(segment.fade_s.get_str()));
   if (const auto* card = std::get_if<Card>(&segment.content)) {
-    return text + fmt::format("card = {}\nseconds = {}\n", value_of(card->lines),
-                              scalar(card->length_s.get_str()));
+    text += fmt::format("card = {}\n", value_of(card->lines));
+    if (!card->becomes.empty()) text += fmt::format("becomes = {}\n", value_of(card->becomes));
+    return text + fmt::format("seconds = {}\n", scalar(card->length_s.get_str()));
   }
   return text + scenes_text(segment, std::get<Scenes>(segment.content));
 }

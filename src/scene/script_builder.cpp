@@ -81,10 +81,12 @@ class StoryReader {
   Card card_of(const TomlTable& table, Origins& origins) {
     Card card;
     take(table, "card", card.lines, lines_of, origins);
+    take(table, "becomes", card.becomes, lines_of, origins);
     take(table, "seconds", card.length_s, number_of, origins);
     for (const TomlEntry& entry : table.entries) {
-      if (entry.key == "card" || entry.key == "seconds" || entry.key == "fade") continue;
-      add_problem(entry, "a card has nothing but 'card', 'seconds' and 'fade'");
+      constexpr std::array<std::string_view, 4> kKeys = {"card", "becomes", "seconds", "fade"};
+      if (std::ranges::count(kKeys, entry.key) > 0) continue;
+      add_problem(entry, "a card has nothing but 'card', 'becomes', 'seconds' and 'fade'");
     }
     return card;
   }
@@ -107,7 +109,9 @@ class StoryReader {
 
   Scenes scenes_of(const TomlTable& table) {
     TomlTable keys = checked(table, [](const std::string& key) {
-      return key == "seconds" ? "is the length of a card; a run has time.duration" : nullptr;
+      return key == "seconds"   ? "is the length of a card; a run has time.duration"
+             : key == "becomes" ? "is what the lines of a card become"
+                                : nullptr;
     });
     std::erase_if(keys.entries, [](const TomlEntry& entry) {
       return entry.key == "compare" || entry.key == "split" || entry.key == "fade";

@@ -9,13 +9,34 @@
 namespace piblocks {
 namespace {
 
-void check(const Card& card, SceneProblems& problems) {
-  problems.require(!card.lines.empty() && card.lines.size() <= kMaxCardLines, "card",
+void check_lines(const char* key, const std::vector<std::string>& lines, SceneProblems& problems) {
+  problems.require(!lines.empty() && lines.size() <= kMaxCardLines, key,
                    "must be from 1 to {} lines of text", kMaxCardLines);
-  problems.require(std::ranges::none_of(card.lines, &std::string::empty), "card",
+  problems.require(std::ranges::none_of(lines, &std::string::empty), key,
                    "must not have an empty line");
-  for (const std::string& line : card.lines) check_line("card", line, problems);
+  for (const std::string& line : lines) check_line(key, line, problems);
+}
+
+/// Whether all of `before` is in `after`, in its order.
+bool is_within(std::string_view before, std::string_view after) {
+  for (const char each : after) {
+    if (!before.empty() && each == before.front()) before.remove_prefix(1);
+  }
+  return before.empty();
+}
+
+void check(const Card& card, SceneProblems& problems) {
+  check_lines("card", card.lines, problems);
   problems.require_positive("seconds", card.length_s);
+  if (card.becomes.empty()) return;
+  check_lines("becomes", card.becomes, problems);
+  problems.require(card.becomes.size() >= card.lines.size(), "becomes",
+                   "must have at least the {} lines of the card", card.lines.size());
+  for (std::size_t i = 0; i < std::min(card.lines.size(), card.becomes.size()); ++i) {
+    problems.require(is_within(card.lines[i], card.becomes[i]), "becomes",
+                     "'{}' must have all characters of '{}' in their order", card.becomes[i],
+                     card.lines[i]);
+  }
 }
 
 void check(const Scenes& scenes, SceneProblems& problems) {
@@ -36,8 +57,10 @@ std::string described(const Segment& segment) {
   std::string text = "fade = " + segment.fade_s.get_str();
   if (segment.split != Split::automatic) text += "\tsplit = " + exact_text(segment.split);
   if (const auto* card = std::get_if<Card>(&segment.content)) {
-    return fmt::format("{}\tseconds = {}\t{}", text, card->length_s.get_str(),
-                       fmt::join(card->lines, "\t"));
+    text +=
+        fmt::format("\tseconds = {}\t{}", card->length_s.get_str(), fmt::join(card->lines, "\t"));
+    if (card->becomes.empty()) return text;
+    return fmt::format("{}\tbecomes\t{}", text, fmt::join(card->becomes, "\t"));
   }
   for (const Scene& scene : std::get<Scenes>(segment.content)) text += described(scene);
   return text;

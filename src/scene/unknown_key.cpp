@@ -14,7 +14,8 @@ namespace piblocks {
 namespace {
 
 const std::vector<std::string> kListsOfTables = {"body", "wall", "part"};
-const std::vector<std::string> kKeysOfParts = {"card", "seconds", "fade", "compare", "split"};
+const std::vector<std::string> kKeysOfParts = {"card", "becomes", "seconds",
+                                               "fade", "compare", "split"};
 
 /// The keys of a scene outside of its lists of tables.
 std::vector<std::string> all_keys() {

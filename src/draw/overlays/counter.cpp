@@ -149,21 +149,17 @@ class Counter {
 }  // namespace
 
 std::string pi_count(const LayoutContext& context) {
-  if (context.pair() == nullptr) return {};
   const Scene& scene = context.scene;
+  if (context.pair() == nullptr || !scene.show.has(Overlay::digits)) return {};
   const PairLog& log = context.two_blocks();
   const int base = scene.show.base;
-  const bool is_asked_for = scene.show.has(Overlay::digits);
-  if (!is_asked_for && scene.view.theme == Theme::article) return {};
   if (!places_of_pi(log.blocks(), base)) {
-    if (!is_asked_for) return {};
     throw UsageError(fmt::format(
         "show.overlays: there are no digits of pi to light up, since this scene does not count "
         "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
         base * base));
   }
   if (!counted_pi(log.blocks(), log.last(), base).empty()) return count_text(log.last(), base);
-  if (!is_asked_for) return {};
   const std::string counted = log.last().get_str(base);
   std::string digits = pi_digits(base, counted.size());
   std::erase(digits, '.');

@@ -46,9 +46,10 @@ bool shows_a_turn(const DrawingContext& context) {
   return first.red.velocity < 0 && last.red.velocity > 0 && last.count - first.count >= 3;
 }
 
-Diagram::Diagram(const DrawingContext& context, const PanelPlace& place,
-                 const std::vector<Formula>& titles)
+Diagram::Diagram(const DrawingContext& context, const PanelPlace& place)
     : palette_(context.palette),
+      title_at_{place.area.x, place.area.y + kTitleBaseline * context.sizes.text},
+      title_room_px_(place.area.width),
       fonts_(&context.fonts),
       font_(&context.font),
       first_id_(place.first_id),
@@ -56,20 +57,50 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place,
       sizes_(context.sizes),
       text_px_(context.sizes.text) {
   const Rect& whole = place.area;
-  const auto width_px = [&](const Formula& title) { return title.width_em() * text_px_; };
-  const auto title = std::ranges::find_if(
-      titles, [&](const Formula& wording) { return width_px(wording) <= whole.width; });
-  if (title == titles.end()) {
-    throw UsageError(fmt::format(
-        "show.panels: the title of the diagram '{}' needs {:.0f} pixels, and there are {:.0f}; "
-        "leave out a diagram, or make the frame larger",
-        exact_text(panel_), width_px(titles.back()), whole.width));
-  }
-  formula(*title, {whole.x, whole.y + kTitleBaseline * text_px_}, 0, palette_.text);
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
   // Lines along its border are wider than the area.
   item_ = {nth(first_id_, 0), whole.grown(kAround * text_px_).whole_pixels(), nullptr};
+}
+
+Diagram::Diagram(const DrawingContext& context, const PanelPlace& place,
+                 const std::vector<Formula>& titles)
+    : Diagram(context, place) {
+  formula(fitting(titles), title_at_, 0, palette_.text);
+}
+
+const Formula& Diagram::fitting(const std::vector<Formula>& titles) const {
+  const auto width_px = [&](const Formula& title) { return title.width_em() * text_px_; };
+  const auto title = std::ranges::find_if(
+      titles, [&](const Formula& wording) { return width_px(wording) <= title_room_px_; });
+  if (title != titles.end()) return *title;
+  throw UsageError(fmt::format(
+      "show.panels: the title of the diagram '{}' needs {:.0f} pixels, and there are {:.0f}; "
+      "leave out a diagram, or make the frame larger",
+      exact_text(panel_), width_px(titles.back()), title_room_px_));
+}
+
+std::vector<DrawItem> Diagram::title(std::size_t n, const std::vector<Formula>& titles,
+                                     const Color& color, double size_px) const {
+  const Formula& title = fitting(titles);
+  const bool is_large = title.width_em() * size_px <= title_room_px_;
+  std::vector<DrawItem> items;
+  title.add_to(items, moving(n), title_at_, is_large ? size_px : text_px_, color);
+  return items;
+}
+
+PhasedTitle::PhasedTitle(const Diagram& diagram, const Sentences& sentences, Counts counts)
+    : before_(diagram.title(kFirst, sentences.before, diagram.palette().text, diagram.text_px())),
+      during_(diagram.title(kFirst, sentences.during, diagram.palette().text, diagram.text_px())),
+      after_(
+          diagram.title(kFirst, sentences.after, diagram.palette().accent, diagram.sizes().title)),
+      counts_(std::move(counts)) {}
+
+void PhasedTitle::add(const Integer& count, std::vector<DrawItem>& items) const {
+  const std::vector<DrawItem>& title = count >= counts_.last    ? after_
+                                       : count > counts_.before ? during_
+                                                                : before_;
+  items.insert(items.end(), title.begin(), title.end());
 }
 
 void Diagram::check_range(const std::vector<DrawItem>& items) const {

@@ -21,16 +21,14 @@ struct PanelPlace {
   Panel panel = Panel::velocity;
 };
 
-/// The velocities as a point on a circle, and a chord for each collision.
+/// The velocities as a point on a circle, and a chord for each collision. That of Panel::ellipse is
+/// first the ellipse that it is before velocities are scaled by the masses' roots.
 Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place);
-/// The same, first as the ellipse that it is before velocities are scaled by the masses' roots.
-Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place);
 /// The path through the plane of both gaps, enlarged near the corner.
 Drawable position_panel(const DrawingContext& context, const PanelPlace& place);
-/// The straight line through the unfolded wedges.
+/// The straight line through the unfolded wedges. Those of Panel::mirrors unfold one by one, each
+/// after its collision.
 Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place);
-/// The same, with wedges that unfold one by one, each at its collision.
-Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place);
 /// How near the count comes to a wrong digit of pi.
 /// @throws UsageError if the scene does not count pi, or the panel is too small.
 Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place);
@@ -81,6 +79,14 @@ class Diagram {
   /// @throws UsageError if none does.
   Diagram(const DrawingContext& context, const PanelPlace& place,
           const std::vector<Formula>& titles);
+  /// Without a title, but with room for one.
+  Diagram(const DrawingContext& context, const PanelPlace& place);
+
+  /// A title as the n-th and the next of the things that move. Until finish().
+  /// @param titles   as of the constructor
+  /// @param size_px  of its type if it has room, else it has the size of text
+  std::vector<DrawItem> title(std::size_t n, const std::vector<Formula>& titles, const Color& color,
+                              double size_px) const;
 
   /// What is left below the title.
   const Rect& inside() const noexcept { return inside_; }
@@ -153,10 +159,14 @@ class Diagram {
     if (line) item.stroke = Stroke{*line, sizes_.grid_line};
     return item;
   }
+  /// @throws UsageError if none fits.
+  const Formula& fitting(const std::vector<Formula>& titles) const;
   void check_range(const std::vector<DrawItem>& items) const;
   ItemId next_id() const { return nth(first_id_, items_.size()); }
 
   Palette palette_;
+  Point title_at_;
+  double title_room_px_;
   // Of the context, which ends with finish().
   const Fonts* fonts_;
   const Font* font_;
@@ -167,6 +177,33 @@ class Diagram {
   Rect inside_;
   std::vector<DrawItem> items_;
   PlateItem item_;
+};
+
+/// A title that follows the collisions, so that it says nothing before it can be seen.
+class PhasedTitle {
+ public:
+  /// Each as titles of a Diagram.
+  struct Sentences {
+    std::vector<Formula> before;  ///< the first collision
+    std::vector<Formula> during;
+    std::vector<Formula> after = {};  ///< the last; in the accent, large if it has room
+  };
+  struct Counts {
+    Integer before;  ///< collisions before the scene begins
+    Integer last;
+  };
+
+  PhasedTitle(const Diagram& diagram, const Sentences& sentences, Counts counts);
+
+  void add(const Integer& count, std::vector<DrawItem>& items) const;
+
+ private:
+  static constexpr std::size_t kFirst = 32000;  ///< of the things that move in its diagram
+
+  std::vector<DrawItem> before_;
+  std::vector<DrawItem> during_;
+  std::vector<DrawItem> after_;
+  Counts counts_;
 };
 
 class TimeAxis {

@@ -14,6 +14,10 @@ namespace {
 constexpr double kLevel = 0.2;
 /// What is farther from the corner than so many times the farthest crossing is not shown.
 constexpr double kWidest = 4;
+/// More mirrors than these have no true angles, and run together.
+constexpr int kMostTrueMirrors = 40;
+/// The part of the width between the first crossing and the last, with true angles.
+constexpr double kCrossedShare = 0.94;
 /// More mirrors than these are thinned.
 constexpr int kMostMirrors = 128;
 /// Mirrors are looked for up to this distance and time.
@@ -61,10 +65,12 @@ Rational StraightLine::time_at(double position) const {
   return turn_ + Rational(position) / Rational(velocity_);
 }
 
-UnfoldedMap::UnfoldedMap(const Scene& scene, const PairLog& log, const Rect& area, double margin_px)
+UnfoldedMap::UnfoldedMap(const Scene& scene, const PairLog& log, const Rect& area, double margin_px,
+                         double arc_px)
     : line_(log.blocks()),
       area_(area),
       margin_px_(margin_px),
+      arc_px_(arc_px),
       level_px_(kLevel * area.height),
       span_(span_of(scene, log)) {
   place_corner(log);
@@ -87,10 +93,12 @@ void UnfoldedMap::place_corner(const PairLog& log) {
     const Integer first = log.blocks_at(span_.from).count + 1;
     const Integer last = log.blocks_at(span_.to).count;
     if (first <= last) {
-      const auto distance = [&](const Integer& index) {
-        return std::abs(line_.at(time_of(log, log.blocks_collision(index))));
+      const auto place = [&](const Integer& index) {
+        return line_.at(time_of(log, log.blocks_collision(index)));
       };
-      const double reach = kWidest * std::max(distance(first), distance(last));
+      const bool are_few = last - first < kMostTrueMirrors;
+      if (are_few && place_with_true_angles(place(first), place(last))) return;
+      const double reach = kWidest * std::max(std::abs(place(first)), std::abs(place(last)));
       from = std::clamp(from, -reach, reach);
       to = std::clamp(to, -reach, reach);
     }
@@ -107,7 +115,29 @@ void UnfoldedMap::place_corner(const PairLog& log) {
   across_ = line_.meets_corner() ? level_px_ : scale_ * line_.height();
 }
 
+/// @param first, last  crossings, in units of the line @returns whether there is room
+bool UnfoldedMap::place_with_true_angles(double first, double last) {
+  const auto [low, high] = std::minmax({0.0, first, last});
+  const double width = std::max(high - low, line_.height());
+  const double widest = kLevel * area_.height / line_.height();
+  const double scale = std::min(kCrossedShare * area_.width / width, widest);
+  if (!(scale * line_.height() >= margin_px_)) return false;
+  scale_ = scale;
+  level_px_ = across_ = scale * line_.height();
+  corner_x_ = area_.x + area_.width / 2 - (low + high) / 2 * scale;
+  const double beside = std::min(corner_x_ - area_.x, area_.right() - corner_x_) - margin_px_;
+  arc_px_ = std::min({arc_px_, beside, area_.height});
+  has_true_angles_ = true;
+  return true;
+}
+
 Point UnfoldedMap::end_of(const Point& towards) const {
+  if (has_true_angles_) {
+    const bool is_seen = corner_x_ + towards.x >= left() && corner_x_ + towards.x <= right();
+    const double share = arc_px_ / rounded::hypot(towards.x, towards.y);
+    const Point along = (is_seen ? std::max(1.0, share) : share) * towards;
+    return {corner_x_ + along.x, base_y() - along.y};
+  }
   const double side = (towards.x > 0 ? right() : left()) - corner_x_;
   const bool is_above = towards.y * std::abs(side) >= area_.height * std::abs(towards.x);
   if (is_above) return {corner_x_ + towards.x / towards.y * area_.height, area_.y};
@@ -115,6 +145,11 @@ Point UnfoldedMap::end_of(const Point& towards) const {
 }
 
 std::vector<Point> UnfoldedMap::sector(const Point& a, const Point& b) const {
+  if (has_true_angles_) {
+    std::vector<Point> outline = arc()->arc(rounded::atan2(a.y, a.x), rounded::atan2(b.y, b.x));
+    outline.insert(outline.begin(), corner());
+    return outline;
+  }
   std::vector<Point> outline{corner(), end_of(a)};
   const bool is_a_low = outline.back().y > area_.y && a.x > 0;
   const Point end = end_of(b);

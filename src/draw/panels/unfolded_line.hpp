@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
 
 namespace piblocks {
@@ -56,13 +57,18 @@ struct Mirror {
   Point towards = {};   ///< direction of the ray in the picture, y up
 };
 
-/// A map from the plane to pixels. It keeps straight lines straight, and stretches heights so that
-/// the line is at a fifth of the area's height.
+/// A map from the plane to pixels. Angles are true where all crossings have room then; mirrors end
+/// at an arc around the corner, or where they are crossed. Else it keeps straight lines straight,
+/// and stretches heights so that the line is at a fifth of the area's height.
 class UnfoldedMap {
  public:
-  /// @param margin_px  left and right of what is shown
+  /// @param margin_px  left and right of what is shown, and the least height of a line that has
+  /// true
+  ///                   angles
+  /// @param arc_px     the arc's radius, at most
   /// @throws Error as PairLog::time_after(), where collisions are that near to each other.
-  UnfoldedMap(const Scene& scene, const PairLog& log, const Rect& area, double margin_px);
+  UnfoldedMap(const Scene& scene, const PairLog& log, const Rect& area, double margin_px,
+              double arc_px);
 
   const StraightLine& line() const noexcept { return line_; }
   const Rect& area() const noexcept { return area_; }
@@ -72,6 +78,10 @@ class UnfoldedMap {
   double x_at(double position) const noexcept { return corner_x_ + scale_ * position; }
   double x_at(const Rational& time) const { return x_at(line_.at(time)); }
   double left() const noexcept { return area_.x; }
+  /// Nothing unless angles are true.
+  std::optional<Circle> arc() const {
+    return has_true_angles_ ? std::optional(Circle{corner(), arc_px_}) : std::nullopt;
+  }
   double right() const noexcept { return area_.right(); }
 
   /// Direction in the picture, y up, of a direction in the plane, and back.
@@ -79,7 +89,8 @@ class UnfoldedMap {
   Point plane_of(const Point& picture) const {
     return {picture.x / across_, picture.y / level_px_};
   }
-  /// Where a ray with this direction leaves the area.
+  /// Where a ray with this direction ends. With true angles that is the arc, or the crossing that
+  /// it points at.
   Point end_of(const Point& towards) const;
   /// What is between two rays, of which `a` is to the right of `b`.
   std::vector<Point> sector(const Point& a, const Point& b) const;
@@ -90,6 +101,7 @@ class UnfoldedMap {
 
  private:
   void place_corner(const PairLog& log);
+  bool place_with_true_angles(double first, double last);
   std::vector<Mirror> evenly_spaced_mirrors() const;
   Rational time_of(const PairLog& log, const PairCollision& collision) const;
   Mirror mirror_of(const PairLog& log, const Integer& index) const;
@@ -98,6 +110,8 @@ class UnfoldedMap {
   StraightLine line_;
   Rect area_;
   double margin_px_;
+  double arc_px_;
+  bool has_true_angles_ = false;
   double level_px_;  ///< height of the line above the base
   Span span_;
   double corner_x_ = 0;

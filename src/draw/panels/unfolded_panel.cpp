@@ -5,6 +5,7 @@
 
 #include "core/rounded.hpp"
 #include "core/smooth_step.hpp"
+#include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/unfolded_line.hpp"
 #include "draw/panels/unfolded_text.hpp"
@@ -28,6 +29,11 @@ constexpr double kBetweenMirrors = 1;  ///< between mirrors, if they are many
 
 constexpr double kDotShare = 0.45;  ///< radius of a dot, of its distance to the next one
 constexpr double kDoneShare = 0.6;
+constexpr double kFoldShare = 0.4;  ///< of the way to the next mirror in which one unfolds
+
+// Of θ, in ems.
+constexpr double kToAngleName = 0.4;  ///< from the arc
+constexpr double kAboveBase = 0.15;
 
 // The n-th of the things that move, from back to front.
 constexpr std::size_t kWedge = 0;
@@ -47,13 +53,15 @@ bool has_two_rows(const Diagram& diagram) {
 class UnfoldedPanel {
  public:
   UnfoldedPanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(
-            context, place,
-            place.panel == Panel::mirrors ? mirrors_titles(context) : unfolded_titles(context)),
+      : diagram_(context, place),
         grid_px_(context.sizes.grid_line),
         unfolds_(place.panel == Panel::mirrors),
+        title_(diagram_, unfolded_sentences(context, unfolds_),
+               {context.two_blocks().blocks_at(span_of(context.scene, context.log).from).count,
+                context.log.last()}),
         rows_(has_two_rows(diagram_) ? 2 : 1),
-        map_(context.scene, context.two_blocks(), plot(), 2 * kPresentRadius * grid_px_),
+        map_(context.scene, context.two_blocks(), plot(), 2 * kPresentRadius * grid_px_,
+             style::kProtractor * context.sizes.short_side),
         mirrors_(map_.mirrors(context.two_blocks(), kBetweenMirrors * grid_px_)),
         span_(span_of(context.scene, context.log)),
         size_(context.log.last()),
@@ -61,6 +69,7 @@ class UnfoldedPanel {
         most_x_(map_.right() - kPresentRadius * grid_px_),
         from_x_(std::clamp(map_.x_at(span_.from), map_.left(), map_.right())) {
     add_notes(context);
+    add_angle(context);
     diagram_.finish();
     static_items_ = diagram_.plate(kRays, static_items());
     place_dots();
@@ -72,7 +81,8 @@ class UnfoldedPanel {
         std::ranges::upper_bound(mirrors_, shown.state.count, {}, &Mirror::index) -
         mirrors_.begin());
     const bool is_seen = shown.time >= span_.from;
-    const double opened = opened_part(shown);
+    const double x = map_.x_at(shown.time);
+    const double opened = opened_part(x, next);
     if (is_seen) add_wedge(shown, next, opened, items);
     items.emplace_back(static_items_);
     if (unfolds_) {
@@ -80,8 +90,13 @@ class UnfoldedPanel {
       items.insert(items.end(), unfolded_.begin(),
                    unfolded_.begin() + std::ptrdiff_t(std::min(reached, unfolded_.size())));
     }
-    if (!is_seen) return;
-    const double x = map_.x_at(shown.time);
+    if (is_seen) add_path(x, next, items);
+    title_.add(shown.state.count, items);
+  }
+
+ private:
+  /// The line up to now, what it has crossed, and where it is.
+  void add_path(double x, std::size_t next, std::vector<DrawItem>& items) const {
     add_line(x, items);
     for (std::size_t k = 0; k < dots_.size() && first_dot_ + k < next; ++k) {
       items.emplace_back(dots_[k]);
@@ -95,7 +110,6 @@ class UnfoldedPanel {
                                 Stroke{palette.background, grid_px_}});
   }
 
- private:
   /// Without the notes below it.
   Rect plot() const {
     Rect area = diagram_.inside();
@@ -108,7 +122,7 @@ class UnfoldedPanel {
     const FormulaSetter set = context.setter();
     std::vector<Formula> notes{angle_note(context)};
     if (auto thinned = thinning_note(set, mirrors_)) notes.push_back(std::move(*thinned));
-    notes.push_back(set.text("heights not to scale"));
+    if (!map_.arc()) notes.push_back(set.text("heights not to scale"));
     const double room = map_.area().width / diagram_.text_px();
     std::vector<Point> places;
     while (!notes.empty()) {
@@ -121,6 +135,23 @@ class UnfoldedPanel {
       const double y = map_.base_y() + (kNoteBaseline + places[i].y * kNoteStep) * em;
       diagram_.formula(notes[i], {map_.left() + places[i].x * em, y}, 0, diagram_.palette().muted);
     }
+  }
+
+  /// The half-turn, and the angle of its first wedge.
+  void add_angle(const DrawingContext& context) {
+    const auto arc = map_.arc();
+    if (!arc) return;
+    diagram_.line(arc->arc(0, std::numbers::pi), diagram_.palette().muted, diagram_.data_width());
+    if (map_.line().first_ray() != 0) return;
+    const Formula name = context.setter().italic("θ");
+    const double em = diagram_.text_px();
+    const bool is_right = map_.line().velocity() < 0;
+    const double theta = map_.line().theta() / 2;
+    const double away = kToAngleName * em;
+    const Point at =
+        Circle{arc->centre, arc->radius + away}.at(is_right ? theta : std::numbers::pi - theta);
+    const double baseline = std::min(at.y + kHalfFigure_em * em, map_.base_y() - kAboveBase * em);
+    diagram_.formula(name, {at.x, baseline}, is_right ? 0 : 1, diagram_.palette().text);
   }
 
   /// Left end in ems and row of each note.
@@ -209,12 +240,14 @@ class UnfoldedPanel {
     }
   }
 
-  /// How far the newest wedge is open, 0 … 1.
-  double opened_part(const FrameState& shown) const {
-    if (!unfolds_ || shown.hits.empty()) return 1;
-    const Hit& newest = shown.hits.back();
-    if (newest.index != shown.state.count) return 1;
-    return smooth_step(std::clamp(newest.age_s / kHitLife_s, 0.0, 1.0));
+  /// How far the newest wedge is open, 0 … 1. It opens on the way to the next mirror.
+  /// @param next  of the mirrors
+  double opened_part(double x, std::size_t next) const {
+    if (!unfolds_ || next == 0) return 1;
+    const Mirror& newest = mirrors_[next - 1];
+    const double way = kFoldShare * newest.apart_px;
+    if (!(way > 0)) return 1;
+    return smooth_step(std::clamp(std::abs(x - newest.x) / way, 0.0, 1.0));
   }
 
   /// The wedge that the point is in. @param next  of the mirrors
@@ -260,6 +293,7 @@ class UnfoldedPanel {
   Diagram diagram_;
   double grid_px_;
   bool unfolds_;
+  PhasedTitle title_;
   int rows_;  ///< of notes
   UnfoldedMap map_;
   std::vector<Mirror> mirrors_;
@@ -278,10 +312,6 @@ class UnfoldedPanel {
 
 Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place) {
   return {UnfoldedPanel(context, place)};
-}
-
-Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place) {
-  return {UnfoldedPanel(context, place), {.hits = true}};
 }
 
 }  // namespace piblocks

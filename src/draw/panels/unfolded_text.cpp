@@ -7,16 +7,11 @@
 #include <utility>
 
 #include "draw/number_text.hpp"
+#include "draw/panels/half_turn.hpp"
 #include "draw/panels/trajectory.hpp"
 
 namespace piblocks {
 namespace {
-
-/// Ratios m2/m1 other than these have an angle of which pi is no whole multiple, because no other
-/// rational number is the squared tangent of a rational part of pi (Niven, "Irrational Numbers").
-bool divides_pi(const Rational& ratio) {
-  return ratio == 1 || ratio == 3 || ratio == Rational(1, 3);
-}
 
 /// Collisions from the beginning of the scene on.
 Integer crossings_of(const DrawingContext& context) {
@@ -28,15 +23,12 @@ Integer crossings_of(const DrawingContext& context) {
 /// The wedge angle in radians: as a unit fraction where that is good to three digits.
 std::string angle_text(const TwoBlocks& system) {
   const GapWedge wedge(system);
-  const Rational ratio = system.red.mass / system.blue.mass;
-  const Integer root = sqrt(Integer(ratio.get_num()));
-  const bool is_unit_fraction = ratio >= 100 && Rational(root * root) == ratio;
-  if (is_unit_fraction) {
-    const std::string digits = root.get_str();
+  if (const auto root = whole_root(system); root && *root >= 10) {
+    const std::string digits = root->get_str();
     const auto zeros = static_cast<long>(digits.size()) - 1;
     const bool is_power = digits.front() == '1' && digits.find_first_not_of('0', 1) > digits.size();
     if (is_power && zeros > 2) return power_text(-zeros);
-    if (zeros <= 4) return "1/" + short_text(Rational(root));
+    if (zeros <= 4) return "1/" + short_text(Rational(*root));
   }
   const Magnitude theta = written_with(2, wedge.theta_magnitude());
   if (theta.exponent >= -4) {
@@ -47,37 +39,33 @@ std::string angle_text(const TwoBlocks& system) {
 
 }  // namespace
 
-std::vector<Formula> unfolded_titles(const DrawingContext& context) {
+PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool unfolds) {
   const FormulaSetter set = context.setter();
-  const TwoBlocks& system = context.two_blocks().blocks();
   const Integer count = crossings_of(context);
   const std::string number = count == 0 ? "no" : count_text(count, context.scene.show.base);
   const std::string brief_number = count < 1000000 ? number : short_text(Rational(count));
   const char* const mirrors = count == 1 ? " mirror" : " mirrors";
-  const bool is_whole_part = system.blue.velocity == 0 && system.red.velocity < 0 &&
-                             system.blue_gap() > 0 &&
-                             !divides_pi(system.red.mass / system.blue.mass);
-  std::vector<Formula> titles;
-  if (is_whole_part) {
-    const Formula ratio = set.symbol("⌊") + set.text("π/") + set.italic("θ") + set.symbol("⌋");
-    titles.push_back(set.text("Each hit is a mirror: the line crosses ") + ratio +
-                     set.text(" = " + number + " of them"));
-    titles.push_back(set.text("Each hit is a mirror: the line crosses ") + ratio +
-                     set.text(" = " + number));
-    titles.push_back(set.text("A straight line crosses ") + ratio +
-                     set.text(" = " + number + mirrors));
+  std::vector<Formula> path = {set.text("Each hit is a mirror: the path is straight"),
+                               set.text("A straight path"), set.text("Mirrors")};
+  if (unfolds) {
+    path.insert(path.begin(), set.text("Unfold a mirror at each hit: the path stays straight"));
   }
-  titles.push_back(set.text("A straight line crosses " + number + mirrors));
-  titles.push_back(set.text("A straight line crosses " + brief_number + mirrors));
-  titles.push_back(set.text("The line crosses " + brief_number + mirrors));
-  titles.push_back(set.text("A straight line"));
-  return titles;
-}
-
-std::vector<Formula> mirrors_titles(const DrawingContext& context) {
-  const FormulaSetter set = context.setter();
-  return {set.text("Mirrors unfold one by one; the path stays straight"),
-          set.text("Mirrors unfold one by one"), set.text("Mirrors unfold")};
+  std::vector<Formula> crossed;
+  for (const std::string& some : {number, brief_number}) {
+    crossed.push_back(set.text("A straight path crosses " + some + mirrors));
+  }
+  crossed.push_back(set.text(brief_number + mirrors));
+  if (!fills_half_turn(context.two_blocks().blocks())) return {path, path, crossed};
+  std::vector<Formula> filled;
+  for (const std::string& some : {number, brief_number}) {
+    const Formula angles =
+        set.text(some + " equal angles ") + set.italic("θ") + set.text(" fill half a turn");
+    filled.push_back(angles + set.text(": ") + half_turn_ratio(context));
+    filled.push_back(angles);
+  }
+  filled.push_back(half_turn_ratio(context));
+  filled.push_back(set.text(brief_number + mirrors));
+  return {path, path, filled};
 }
 
 Formula angle_note(const DrawingContext& context) {

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "draw/layout.hpp"
+#include "draw/panels/panels.hpp"
 #include "draw/panels/unfolded_line.hpp"
 
 namespace piblocks {
 
-// Titles, from the longest to the shortest.
-/// How many mirrors the line crosses.
-std::vector<Formula> unfolded_titles(const DrawingContext& context);
-std::vector<Formula> mirrors_titles(const DrawingContext& context);
+/// The path is straight; in the end, how many mirrors it has crossed, and why.
+/// @param unfolds  whether mirrors appear one by one
+PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool unfolds);
 
 /// The wedge angle, as an expression and a number.
 Formula angle_note(const DrawingContext& context);

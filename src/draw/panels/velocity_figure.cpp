@@ -32,9 +32,9 @@ double log_axes_of(const TwoBlocks& system) {
 /// Of a label's color. One part fades out before the other fades in.
 double strength(VelocityPart part, double share) {
   constexpr double kArcsFrom = 0.9;
-  const double visible = part == VelocityPart::ellipse  ? 1 - 2 * share
-                         : part == VelocityPart::circle ? 2 * share - 1
-                                                        : (share - kArcsFrom) / (1 - kArcsFrom);
+  const double visible = part == VelocityPart::ellipse ? 1 - 2 * share
+                         : part == VelocityPart::arcs  ? (share - kArcsFrom) / (1 - kArcsFrom)
+                                                       : 2 * share - 1;
   return std::clamp(visible, 0.0, 1.0);
 }
 
@@ -77,48 +77,57 @@ std::array<std::vector<Point>, 2> VelocityFigure::axes() const {
            {{centre.x, centre.y - reach}, {centre.x, centre.y + reach}}}};
 }
 
-void VelocityFigure::add_lines(double share, ItemId first, std::vector<DrawItem>& items) const {
-  const VelocityMap map = this->map(share);
-  const double appearing = strength(VelocityPart::circle, share);
-  const auto add = [&](std::vector<Point> points, const Color& color, double width,
-                       bool is_closed = false) {
-    items.emplace_back(PathItem{nth(first, items.size()), std::move(points), is_closed,
-                                std::nullopt, Stroke{color, width * grid_px_}});
-  };
-  for (std::vector<Point>& axis : axes()) add(std::move(axis), palette_.grid, 1);
-  if (!points_.moves()) return;
-  if (appearing > 0) {
-    for (std::size_t i = 1; i < angles_.size(); ++i) {
-      add({map.at(angles_[i - 1]), map.at(angles_[i])}, faded(palette_.grid, appearing), 1);
-    }
-  }
-  std::vector<Point> outline = curve(map, 0, 2 * std::numbers::pi);
-  outline.pop_back();
-  add(std::move(outline), palette_.muted, kOutline, true);
-  const double arcs = strength(VelocityPart::arcs, share);
-  if (arcs > 0 && !written_.arc.empty()) {
-    add(written_.arc, faded(palette_.text, arcs), kArcLine);
-  }
-}
-
 std::vector<DrawItem> VelocityFigure::items(double share, ItemId first) const {
   std::vector<DrawItem> items;
+  const auto add = [&](std::vector<Point> points, const Color& color, double width, bool closed) {
+    items.emplace_back(PathItem{nth(first, items.size()), std::move(points), closed, std::nullopt,
+                                Stroke{color, width * grid_px_}});
+  };
+  for (std::vector<Point>& axis : axes()) add(std::move(axis), palette_.grid, 1, false);
+  if (points_.moves()) {
+    std::vector<Point> outline = curve(map(share), 0, 2 * std::numbers::pi);
+    outline.pop_back();
+    add(std::move(outline), palette_.muted, kOutline, true);
+  }
+  add_labels(VelocityPart::ellipse, share, first, items);
+  add_labels(VelocityPart::circle, share, first, items);
+  return items;
+}
+
+std::vector<DrawItem> VelocityFigure::arc_items(double share, ItemId first) const {
+  std::vector<DrawItem> items;
+  const double visible = strength(VelocityPart::arcs, share);
+  if (visible == 0 || written_.arc.empty()) return items;
+  const Stroke stroke{faded(palette_.text, visible), kArcLine * grid_px_};
+  items.emplace_back(PathItem{first, written_.arc, false, std::nullopt, stroke});
+  add_labels(VelocityPart::arcs, share, first, items);
+  return items;
+}
+
+std::vector<DrawItem> VelocityFigure::end_items(double share, ItemId first) const {
+  std::vector<DrawItem> items;
   const double theta = points_.wedge_angle();
-  const double appearing = strength(VelocityPart::circle, share);
-  if (appearing > 0 && points_.moves() && theta * place_.circle.radius >= kLeastWedge_px) {
+  const double visible = strength(VelocityPart::end, share);
+  if (visible == 0 || !points_.moves()) return items;
+  if (theta * place_.circle.radius >= kLeastWedge_px) {
     std::vector<Point> wedge = curve(map(share), 0, theta);
     wedge.push_back(place_.circle.centre);
     items.emplace_back(PathItem{first, std::move(wedge), true,
-                                faded(palette_.done, style::kWedgeFill * appearing), std::nullopt});
+                                faded(palette_.done, style::kWedgeFill * visible), std::nullopt});
   }
-  add_lines(share, first, items);
+  add_labels(VelocityPart::end, share, first, items);
+  return items;
+}
+
+void VelocityFigure::add_labels(VelocityPart part, double share, ItemId first,
+                                std::vector<DrawItem>& items) const {
+  const double visible = strength(part, share);
+  if (visible == 0) return;
   for (const VelocityLabel& label : written_.labels) {
-    const double visible = strength(label.part, share);
-    if (visible == 0) continue;
+    if (label.part != part) continue;
     label.formula.add_to(items, nth(first, items.size()), label.at, place_.em,
                          faded(label.color, visible));
   }
-  return items;
 }
 
 }  // namespace piblocks

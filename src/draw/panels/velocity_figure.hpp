@@ -1,4 +1,4 @@
-// What stays in the diagram of velocities: axes and their names, the curve, chords that will come.
+// The diagram of velocities without its chords: axes and their names, the curve, an arc, the end.
 // In: a diagram and points. Out: a map from points to pixels, and items.
 #pragma once
 
@@ -40,13 +40,19 @@ class VelocityFigure {
   const std::vector<double>& angles() const noexcept { return angles_; }
   double dot_px() const noexcept { return dot_px_; }
 
-  /// From back to front. @param first  the first of their ids
+  /// What is always there, from back to front. @param first  the first of their ids
   std::vector<DrawItem> items(double share, ItemId first) const;
+  /// What arc_from() collisions have cut off.
+  std::vector<DrawItem> arc_items(double share, ItemId first) const;
+  std::size_t arc_from() const noexcept { return written_.arc_from; }
+  /// The velocities after which nothing collides.
+  std::vector<DrawItem> end_items(double share, ItemId first) const;
   /// Both axes, through the centre.
   std::array<std::vector<Point>, 2> axes() const;
 
  private:
-  void add_lines(double share, ItemId first, std::vector<DrawItem>& items) const;
+  void add_labels(VelocityPart part, double share, ItemId first,
+                  std::vector<DrawItem>& items) const;
 
   VelocityPoints points_;
   Palette palette_;

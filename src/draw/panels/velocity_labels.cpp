@@ -23,7 +23,6 @@ constexpr double kWordsStep = 1.25;  ///< from one line to the next
 constexpr double kToArc = 0.24;      ///< from the circle to the arc outside of it
 constexpr double kArcEnd = 0.12;
 constexpr double kToArcName = 0.18;
-constexpr double kAfterArcName = 0.6;
 constexpr double kHalfHeight = 0.4;  ///< of figures
 constexpr double kMiddle = 0.3;      ///< of letters, above the baseline
 constexpr double kLabelTop = 0.86;
@@ -35,7 +34,7 @@ constexpr double kLeastDiameter = 0.76;
 /// In a panel so many times as wide as what it shows, this is in the middle.
 constexpr double kWide = 1.6;
 /// Where the arc is, if there is room.
-constexpr double kArcAngle = -0.7;
+constexpr double kArcAngle = -2.4;
 /// Where the words begin, below the circle's centre, in radii.
 constexpr double kWordsBelow = 0.62;
 
@@ -49,13 +48,7 @@ Formula scaled_name(const FormulaSetter& set, const char* index) {
 
 Formula arc_name(const FormulaSetter& set) { return set.text("2") + set.italic("θ"); }
 
-/// Two lines.
-std::vector<Formula> words_of(const FormulaSetter& set, bool are_seen) {
-  const Formula arc = arc_name(set);
-  if (are_seen) return {set.text("each hit cuts off"), set.text("the same arc, ") + arc};
-  return {set.text("each hit cuts off the same"),
-          set.text("arc, ") + arc + set.text(", too small to see")};
-}
+Formula end_words(const FormulaSetter& set) { return set.text("no more hits here"); }
 
 bool is_ellipse_to_scale(const TwoBlocks& system) {
   const Rational ratio = system.red.mass / system.blue.mass;
@@ -126,7 +119,6 @@ class VelocityLabeller {
     add_energy(is_ellipse_to_scale(system));
     room_ = around_circle;
     add_arc(angles);
-    add_words(!angles.empty());
     return std::move(made_);
   }
 
@@ -159,7 +151,7 @@ class VelocityLabeller {
 
   /// Beside the wedge of the velocities after which nothing collides.
   void add_end() {
-    const Formula words = set_.text("no more hits here");
+    const Formula words = end_words(set_);
     const auto& [centre, radius] = circle_;
     const double middle = points_.wedge_angle() / 2;
     const double baseline = std::min(centre.y - radius * rounded::sin(middle) + kMiddle * em_,
@@ -169,7 +161,7 @@ class VelocityLabeller {
           Point{at_right(words), centre.y - radius}, Point{at_right(words), bottom()}}) {
       if (!room_.is_free(words, at)) continue;
       room_.take(words, at);
-      made_.labels.push_back({words, at, palette_.done, VelocityPart::circle});
+      made_.labels.push_back({words, at, palette_.done, VelocityPart::end});
       return;
     }
   }
@@ -188,14 +180,18 @@ class VelocityLabeller {
   void add_arc(const std::vector<double>& angles) {
     const Formula name = arc_name(set_);
     const double theta = points_.wedge_angle();
-    std::vector<double> middles;
+    struct Arc {
+      double middle;
+      std::size_t from;
+    };
+    std::vector<Arc> arcs;
     for (std::size_t i = 2; i < angles.size(); ++i) {
       const double middle = angles[i] + (angles[i] > angles[i - 2] ? -theta : theta);
-      middles.push_back(std::remainder(middle, 2 * std::numbers::pi));
+      arcs.push_back({std::remainder(middle, 2 * std::numbers::pi), i});
     }
-    std::ranges::sort(middles, {}, [](double middle) { return std::abs(middle - kArcAngle); });
+    std::ranges::sort(arcs, {}, [](const Arc& arc) { return std::abs(arc.middle - kArcAngle); });
     const double half_em = name.width_em() / 2;
-    for (const double middle : middles) {
+    for (const auto& [middle, from] : arcs) {
       std::vector<Point> arc = arc_outside(middle - theta, middle + theta);
       const double away_em = kToArc + kToArcName + std::abs(rounded::cos(middle)) * half_em +
                              std::abs(rounded::sin(middle)) * kHalfHeight;
@@ -207,26 +203,9 @@ class VelocityLabeller {
       if (!fits || !room_.is_free(name, at)) continue;
       room_.take(name, at);
       made_.arc = std::move(arc);
+      made_.arc_from = from;
       made_.labels.push_back({name, at, palette_.text, VelocityPart::arcs});
       return;
-    }
-  }
-
-  /// @param are_told_apart  the points; then the words are of the arc that is marked
-  void add_words(bool are_told_apart) {
-    if (points_.last() - points_.before() < 2 || (are_told_apart && made_.arc.empty())) return;
-    double left = beside_circle();
-    if (are_told_apart) {
-      const auto& [name, at, color, part] = made_.labels.back();
-      const double after = at.x + (name.width_em() + kAfterArcName) * em_;
-      if (at.x > circle_.centre.x) left = std::max(left, after);
-    }
-    const std::vector<Formula> lines = words_of(set_, are_told_apart);
-    const auto at = place_lines(lines, left);
-    if (!at) return;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const Point start{at->x, at->y + double(i) * kWordsStep * em_};
-      made_.labels.push_back({lines[i], start, palette_.text, VelocityPart::arcs});
     }
   }
 
@@ -294,7 +273,7 @@ VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set)
   double diameter = std::min(high, inside.width - 2 * side);
   const bool has_name = beside_name >= kLeastDiameter * std::min(inside.width, inside.height);
   if (has_name) diameter = std::min(diameter, beside_name);
-  const double whole = side + diameter + (2 * kToLabel + widest_em(words_of(set, true))) * em;
+  const double whole = side + diameter + (2 * kToLabel + end_words(set).width_em()) * em;
   double left = side;
   if (inside.width > kWide * whole) {
     left += (inside.width - whole) / 2;

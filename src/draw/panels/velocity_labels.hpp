@@ -10,7 +10,7 @@
 namespace piblocks {
 
 /// What a label is true of. Arcs are equal on the circle alone.
-enum class VelocityPart { ellipse, circle, arcs };
+enum class VelocityPart { ellipse, circle, arcs, end };
 
 struct VelocityLabel {
   Formula formula;
@@ -21,7 +21,8 @@ struct VelocityLabel {
 
 struct VelocityLabels {
   std::vector<VelocityLabel> labels;
-  std::vector<Point> arc;  ///< outside of the circle, from one point to the next; may be empty
+  std::vector<Point> arc;    ///< outside of the circle, from one point to the next; may be empty
+  std::size_t arc_from = 0;  ///< collisions after which both points have been reached
 };
 
 /// The circle and its room, in pixels.
@@ -38,8 +39,8 @@ VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set)
 /// The greatest ratio of the axes that is drawn. A longer ellipse is drawn with this ratio.
 inline constexpr long kMostLongEllipse = 12;
 
-/// Labels: the names of the axes, "no more hits here", the marked arc's explanation, and the
-/// ellipse's explanation. Labels without room are left out.
+/// Labels: the names of the axes, "no more hits here", the marked arc's name, and the ellipse's
+/// explanation. Labels without room are left out.
 /// @param angles  of all points, if they can be told apart; else none
 VelocityLabels label_velocities(const DrawingContext& context, const VelocityPlace& place,
                                 const VelocityPoints& points, const std::vector<double>& angles);

@@ -8,6 +8,7 @@
 #include "core/rounded.hpp"
 #include "core/smooth_step.hpp"
 #include "draw/look.hpp"
+#include "draw/panels/half_turn.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/velocity_figure.hpp"
 #include "draw/panels/velocity_points.hpp"
@@ -16,19 +17,21 @@ namespace piblocks {
 namespace {
 
 // Of the moving items.
+constexpr std::size_t kFirstArc = 2048;
+constexpr std::size_t kFirstEnd = 4096;
 constexpr std::size_t kFirstStrip = 8192;
 constexpr std::size_t kFirstAxis = 12280;
 constexpr std::size_t kFirstChord = 12288;
 constexpr std::size_t kFirstDot = 20480;
-constexpr std::size_t kPresentDot = 32767;
+constexpr std::size_t kPresentDot = 31999;
 
 /// Width of the strips that a filled area grows by. Finished ones cost nothing.
 constexpr double kStrip_px = 16;
 constexpr int kStepsInStrip = 8;
 
 // Seconds of video at which the ellipse begins to become a circle, and is one.
-constexpr double kMorphBegin_s = 1.5;
-constexpr double kMorphEnd_s = 4;
+constexpr double kMorphBegin_s = 4;
+constexpr double kMorphEnd_s = 5.5;
 
 /// How much of the way to the circle is done.
 double morphed_share(double video_s) {
@@ -36,31 +39,40 @@ double morphed_share(double video_s) {
       std::clamp((video_s - kMorphBegin_s) / (kMorphEnd_s - kMorphBegin_s), 0.0, 1.0));
 }
 
-std::vector<Formula> circle_titles(const FormulaSetter& set) {
-  return {set.text("Energy keeps the speeds on a circle"), set.text("Speeds on a circle")};
-}
-
-std::vector<Formula> ellipse_titles(const FormulaSetter& set) {
-  const Formula root = set.root(set.italic("m"));
-  return {set.text("Equal energy is an ellipse; scaled by ") + root + set.text(", a circle"),
-          set.text("Ellipse becomes circle")};
+/// @param has_chords  that can be told apart
+PhasedTitle::Sentences sentences(const DrawingContext& context, bool has_chords) {
+  const FormulaSetter set = context.setter();
+  const Formula arc = set.text("2") + set.italic("θ");
+  const Formula brief = set.text("Each hit cuts off an arc of ") + arc;
+  PhasedTitle::Sentences all{
+      .before = {set.text("Energy keeps the speeds on this curve"), set.text("Speeds on a curve")},
+      .during = {brief, set.text("Each hit: an arc of ") + arc}};
+  if (!has_chords) {
+    all.during.insert(all.during.begin(), brief + set.text(", too small to see"));
+  }
+  all.after = all.during;
+  if (!fills_half_turn(context.two_blocks().blocks())) return all;
+  const Formula ratio = half_turn_ratio(context);
+  all.after.insert(all.after.begin(), {set.text("2π ÷ ") + arc + set.text(" = ") + ratio, ratio});
+  return all;
 }
 
 /// The velocities are a point on a circle, and each collision moves it along a chord. Chords too
 /// close to be told apart become the area that they cover.
 class VelocityPanel {
  public:
-  VelocityPanel(const DrawingContext& context, const PanelPlace& place,
-                const std::vector<Formula>& titles, bool is_ellipse_first)
-      : diagram_(context, place, titles),
+  VelocityPanel(const DrawingContext& context, const PanelPlace& place)
+      : diagram_(context, place),
         blocks_(context.two_blocks().blocks()),
         points_(context.scene, context.two_blocks()),
         figure_(context, diagram_, points_),
-        is_ellipse_first_(is_ellipse_first) {
+        title_(diagram_, sentences(context, figure_.has_chords()),
+               {points_.before(), points_.last()}),
+        is_ellipse_first_(place.panel == Panel::ellipse) {
     diagram_.finish();
     circle_ = figure_items(1);
     circle_.static_items = plate_of(circle_.static_items);
-    if (!is_ellipse_first) return;
+    if (!is_ellipse_first_) return;
     ellipse_ = figure_items(0);
     ellipse_.static_items = plate_of(ellipse_.static_items);
   }
@@ -81,12 +93,16 @@ class VelocityPanel {
   /// All that depends on the share of the way from ellipse to circle alone.
   struct FigureItems {
     std::vector<DrawItem> static_items;
-    std::vector<PathItem> chords;  ///< of each collision
-    std::vector<DiscItem> dots;    ///< of each velocity
+    std::vector<DrawItem> arc;
+    std::vector<DrawItem> end;
+    std::vector<PathItem> chords = {};  ///< of each collision
+    std::vector<DiscItem> dots = {};    ///< of each velocity
   };
 
   FigureItems figure_items(double share) const {
-    FigureItems all{{diagram_.item()}, {}, {}};
+    FigureItems all{.static_items = {diagram_.item()},
+                    .arc = figure_.arc_items(share, diagram_.moving(kFirstArc)),
+                    .end = figure_.end_items(share, diagram_.moving(kFirstEnd))};
     std::ranges::move(figure_.items(share, diagram_.moving(0)),
                       std::back_inserter(all.static_items));
     const VelocityMap map = figure_.map(share);
@@ -118,7 +134,12 @@ class VelocityPanel {
 
   void add(const FigureItems& parts, double share, const PairState& state,
            std::vector<DrawItem>& items) const {
-    items.insert(items.end(), parts.static_items.begin(), parts.static_items.end());
+    const auto append = [&](const std::vector<DrawItem>& more) {
+      items.insert(items.end(), more.begin(), more.end());
+    };
+    append(parts.static_items);
+    if (state.count >= points_.before() + static_cast<long>(figure_.arc_from())) append(parts.arc);
+    if (state.count >= points_.last()) append(parts.end);
     const VelocityMap map = figure_.map(share);
     const Point velocity =
         points_.moves() ? points_.point_of(state.blue.velocity, state.red.velocity) : Point{};
@@ -132,6 +153,7 @@ class VelocityPanel {
       add_area(map, rounded::atan2(velocity.y, velocity.x), reached, items);
     }
     items.emplace_back(diagram_.present_dot(kPresentDot, map.at(velocity)));
+    title_.add(state.count, items);
   }
 
   /// The chords so far cover what is between the first velocity and the last chord.
@@ -200,6 +222,7 @@ class VelocityPanel {
   TwoBlocks blocks_;
   VelocityPoints points_;
   VelocityFigure figure_;
+  PhasedTitle title_;
   bool is_ellipse_first_;
   FigureItems circle_;
   FigureItems ellipse_;
@@ -208,11 +231,7 @@ class VelocityPanel {
 }  // namespace
 
 Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place) {
-  return {VelocityPanel(context, place, circle_titles(context.setter()), false)};
-}
-
-Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place) {
-  return {VelocityPanel(context, place, ellipse_titles(context.setter()), true), {.video_s = true}};
+  return {VelocityPanel(context, place), {.video_s = place.panel == Panel::ellipse}};
 }
 
 }  // namespace piblocks
