@@ -38,7 +38,7 @@ constexpr double kMostCounter = 0.6;
 constexpr double kRowCounter = 0.35;
 /// Greatest height of a stage without overlays, where there is one diagram, and where there are
 /// more.
-constexpr double kStripStage = 0.18;
+constexpr double kStripStage = 0.2;
 constexpr double kPlainStage = 0.24;
 /// Part of the frame's longer side that discs have where there are diagrams.
 constexpr double kPlaneStage = 0.56;

@@ -125,13 +125,13 @@ TEST_F(Formulas, RootsHaveABarOverTheirContent) {
 }
 
 TEST_F(Formulas, SetLettersInItalicsAndTheRestUpright) {
-  for (const char* letter : {"m", "M", "θ", "π"}) {
+  for (const char* letter : {"m", "M", "h", "θ", "π"}) {
     const std::vector<TextItem> texts = texts_of(set_.italic(letter));
     ASSERT_EQ(texts.size(), 1U);
     EXPECT_EQ(texts[0].face, Face::math);
     EXPECT_NE(texts[0].text, letter);
   }
-  for (const char* other : {"h", "1", "=", "Ж"}) {
+  for (const char* other : {"1", "=", "Ж"}) {
     const std::vector<TextItem> texts = texts_of(set_.italic(other));
     ASSERT_EQ(texts.size(), 1U);
     EXPECT_EQ(texts[0].face, Face::text);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -222,29 +223,69 @@ TEST(Unfolded, ThePresentIsInTheWedgeBetweenItsMirrors) {
   }
 }
 
-TEST(Unfolded, TheTitleSaysHowManyMirrors) {
-  const auto text_with = [](int digits, const Settings& settings) {
-    return Shown(UnfoldedPictures(digits, settings).at(1)).words();
+TEST(Unfolded, TheTitleSaysInTheEndHowManyMirrorsAndWhy) {
+  const auto words_at = [](int digits, const Settings& settings, bool is_end) {
+    const UnfoldedPictures pictures(digits, settings);
+    return Shown(pictures.at(is_end ? pictures.end() : Rational(1))).words();
   };
-  EXPECT_NE(text_with(2, {}).find("mirror: the line crosses ⌊π/"), std::string::npos);
-  EXPECT_NE(text_with(2, {}).find("⌋ = 31 of them"), std::string::npos);
-  EXPECT_NE(text_with(5, {}).find("⌋ = 31,415"), std::string::npos);
-  EXPECT_NE(text_with(2, {{"base", "2"}}).find("= 110"), std::string::npos);
+  const auto says = [&](int digits, const Settings& settings, const char* what) {
+    EXPECT_EQ(words_at(digits, settings, false).find(what), std::string::npos) << "too early";
+    const std::string text = words_at(digits, settings, true);
+    EXPECT_NE(text.find(what), std::string::npos) << what << " is not in " << text;
+  };
+  says(2, {}, "31 equal angles ");
+  says(2, {}, " fill half a turn: π / ");
+  says(2, {}, " ≈ 10 π = 31.4…");
+  says(3, {}, "314 equal angles ");
+  says(3, {}, " ≈ 100 π = 314.1…");
+  says(5, {}, "31,415 equal angles ");
+  says(1, {{"red.mass", "7"}}, " = 8.6…");      // π/arctan(1/√7) = 8.69
+  says(1, {{"red.mass", "1000"}}, " = 99.3…");  // π/arctan(1/√1000) = 99.379
+  says(2, {{"base", "2"}}, "110 equal angles ");
+  EXPECT_EQ(words_at(2, {{"base", "2"}}, true).find("≈ 10 π"), std::string::npos);
   // Here π/θ is 4, 6 and 3, and the line is parallel to the last mirror.
   for (const auto& [mass, count] : {std::pair("1", "3"), {"3", "5"}, {"1/3", "2"}}) {
-    const std::string text = text_with(1, {{"red.mass", mass}});
+    const std::string text = words_at(1, {{"red.mass", mass}}, true);
     EXPECT_NE(text.find(std::string("crosses ") + count + " mirrors"), std::string::npos) << text;
-    EXPECT_EQ(text.find("⌊"), std::string::npos) << text;
+    EXPECT_EQ(text.find("half a turn"), std::string::npos) << text;
   }
   for (const Settings& settings : systems()) {
     const UnfoldedPictures pictures(2, settings);
-    const std::string text = Shown(pictures.at(1)).words();
+    const std::string text = Shown(pictures.after(pictures.log->last())).words();
     const std::string count = pictures.log->last().get_str();
     const bool says_count = text.find(count + " mirror") != std::string::npos ||
-                            text.find("⌋ = " + count + " of them") != std::string::npos;
+                            text.find(count + " equal angles") != std::string::npos;
     EXPECT_TRUE(says_count) << text;
   }
-  EXPECT_NE(text_with(20, {{"view.size", "1080x1920"}}).find("mirrors drawn"), std::string::npos);
+  const std::string many = words_at(20, {{"view.size", "1080x1920"}}, false);
+  EXPECT_NE(many.find("mirrors drawn"), std::string::npos);
+}
+
+TEST(Unfolded, AnglesAreTrueWhereTheCrossingsHaveRoom) {
+  for (const auto& [digits, size, is_true] : {std::tuple(2, "1280x720", true),
+                                              {2, "1920x1080", true},
+                                              {2, "1080x1920", true},
+                                              {2, "1080x1080", true},
+                                              {1, "1280x720", true},
+                                              {3, "1920x1080", false}}) {
+    const UnfoldedPictures pictures(digits, {{"view.size", size}});
+    const DrawList list = pictures.at(pictures.end());
+    EXPECT_EQ(Shown(list).words().find("not to scale") == std::string::npos, is_true) << size;
+    if (!is_true) continue;
+    const Plane plane(pictures);
+    const std::vector<DiscItem> dots = dots_of(list);
+    const std::vector<PathItem> rays = rays_of(list);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Point& corner = rays[i].points.view()[0];
+      const Point& end = rays[i].points.view()[1];
+      const double angle = std::atan2(corner.y - end.y, end.x - corner.x);
+      EXPECT_NEAR(angle, double(i + 1) * plane.theta, 1e-9) << size;
+      // A mirror is seen at least as far as the path crosses it.
+      EXPECT_GE(length(end - corner), length(dots[i].centre - corner) - 1e-6) << size;
+      EXPECT_GT(dots[i].centre.x, 0) << size;
+      EXPECT_LT(dots[i].centre.x, list.width_px) << size;
+    }
+  }
 }
 
 TEST(Unfolded, SaysTheAngle) {
@@ -344,7 +385,11 @@ TEST(Mirrors, AppearWithTheirCollisions) {
   const UnfoldedPictures pictures(2, {{"show.panels", "mirrors"}});
   EXPECT_EQ(rays_of(pictures.at(0)).size(), 1U) << "the mirror that comes first";
   for (int count = 1; count <= 31; ++count) {
-    EXPECT_EQ(int(rays_of(pictures.after(count)).size()), std::min(count + 1, 31)) << count;
+    EXPECT_EQ(int(rays_of(pictures.after(count)).size()), count);
+    if (count == 31) break;
+    const Rational next = pictures.log->time_after(count + 1);
+    const Rational between = (pictures.log->time_after(count) + next) / 2;
+    EXPECT_EQ(int(rays_of(pictures.at(between)).size()), count + 1);
   }
 }
 
@@ -354,28 +399,28 @@ std::pair<Point, Point> sides_of(const DrawList& list) {
   return {wedge->points.view()[1], wedge->points.view().back()};
 }
 
-TEST(Mirrors, OpenFromTheWedgeBefore) {
+TEST(Mirrors, OpenFromTheWedgeBeforeOnTheWayToTheNextMirror) {
+  constexpr double kFold = 0.4;  // of the way to the nearest mirror
   const UnfoldedPictures pictures(2, {{"show.panels", "mirrors"}});
-  ASSERT_TRUE(pictures.composition.needs().hits);
-  const auto with_age = [&](int count, double age_s) {
-    const Rational time = pictures.log->time_after(count);
-    FrameState shown{pictures.log->state_at(time), time};
-    shown.hits.push_back({.index = count, .age_s = age_s});
-    return pictures.composition.frame(shown);
-  };
-  for (int count = 1; count <= 31; ++count) {
-    const auto [right, left] = sides_of(pictures.after(count));
-    const auto [last_right, last_left] = sides_of(with_age(count, kHitLife_s));
+  const auto time_of = [&](int count) { return pictures.log->time_after(count); };
+  for (int count = 2; count < 31; ++count) {
+    const Rational before = time_of(count) - time_of(count - 1);
+    const Rational after = time_of(count + 1) - time_of(count);
+    const auto sides_at = [&](double share) {
+      const Rational passed = Rational(share * kFold) * std::min(before, after);
+      return sides_of(pictures.at(time_of(count) + passed));
+    };
+    const auto [right, left] = sides_at(1);
+    const auto [last_right, last_left] = sides_at(1 / kFold - 0.01);
     EXPECT_EQ(right, last_right) << count;
     EXPECT_EQ(left, last_left) << count;
-    if (count == 31) continue;  // the last wedge is cut off
-    const auto folded = sides_of(with_age(count, 0));
-    const auto wedge_before = sides_of(count == 1 ? pictures.at(0) : pictures.after(count - 1));
+    const auto folded = sides_at(0);
+    const auto wedge_before = sides_of(pictures.at(time_of(count) - before / 100));
     EXPECT_NEAR(folded.first.x, wedge_before.first.x, 1e-6) << count;
     EXPECT_NEAR(folded.first.y, wedge_before.first.y, 1e-6) << count;
     EXPECT_NEAR(folded.second.x, wedge_before.second.x, 1e-6) << count;
     // Halfway it is seen edge on.
-    const auto half = sides_of(with_age(count, kHitLife_s / 2));
+    const auto half = sides_at(0.5);
     EXPECT_NEAR(half.first.x, half.second.x, 1e-6) << count;
     EXPECT_NEAR(half.first.y, half.second.y, 1e-6) << count;
   }

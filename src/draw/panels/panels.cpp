@@ -14,6 +14,7 @@ namespace {
 // In ems.
 constexpr double kTitleHeight = 1.5;
 constexpr double kTitleBaseline = 0.73;
+constexpr double kLargeTitleBaseline = 1;
 constexpr double kAround = 0.5;
 constexpr double kTick = 0.25;
 constexpr double kFigureBaseline = 1.4;
@@ -83,9 +84,13 @@ const Formula& Diagram::fitting(const std::vector<Formula>& titles) const {
 std::vector<DrawItem> Diagram::title(std::size_t n, const std::vector<Formula>& titles,
                                      const Color& color, double size_px) const {
   const Formula& title = fitting(titles);
-  const bool is_large = title.width_em() * size_px <= title_room_px_;
   std::vector<DrawItem> items;
-  title.add_to(items, moving(n), title_at_, is_large ? size_px : text_px_, color);
+  if (size_px > text_px_ && title.width_em() * size_px <= title_room_px_) {
+    const double lower = (kLargeTitleBaseline - kTitleBaseline) * text_px_;
+    title.add_to(items, moving(n), {title_at_.x, title_at_.y + lower}, size_px, color);
+  } else {
+    title.add_to(items, moving(n), title_at_, text_px_, color);
+  }
   return items;
 }
 

@@ -46,7 +46,7 @@ PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool un
   const std::string brief_number = count < 1000000 ? number : short_text(Rational(count));
   const char* const mirrors = count == 1 ? " mirror" : " mirrors";
   std::vector<Formula> path = {set.text("Each hit is a mirror: the path is straight"),
-                               set.text("A straight path"), set.text("Mirrors")};
+                               set.text("A straight path")};
   if (unfolds) {
     path.insert(path.begin(), set.text("Unfold a mirror at each hit: the path stays straight"));
   }
@@ -54,7 +54,7 @@ PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool un
   for (const std::string& some : {number, brief_number}) {
     crossed.push_back(set.text("A straight path crosses " + some + mirrors));
   }
-  crossed.push_back(set.text(brief_number + mirrors));
+  crossed.push_back(set.text("A straight path"));
   if (!fills_half_turn(context.two_blocks().blocks())) return {path, path, crossed};
   std::vector<Formula> filled;
   for (const std::string& some : {number, brief_number}) {
@@ -64,7 +64,7 @@ PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool un
     filled.push_back(angles);
   }
   filled.push_back(half_turn_ratio(context));
-  filled.push_back(set.text(brief_number + mirrors));
+  filled.push_back(set.text("A straight path"));
   return {path, path, filled};
 }
 
