@@ -234,7 +234,7 @@ TEST(Unfolded, TheTitleSaysInTheEndHowManyMirrorsAndWhy) {
     EXPECT_NE(text.find(what), std::string::npos) << what << " is not in " << text;
   };
   says(2, {}, "31 equal angles ");
-  says(2, {}, " fill half a turn, which is π: π / ");
+  says(2, {}, " fit into half a turn, which is π: π / ");
   says(2, {}, " ≈ 10 π = 31.4…");
   says(3, {}, "314 equal angles ");
   says(3, {}, " ≈ 100 π = 314.1…");

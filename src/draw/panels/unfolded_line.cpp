@@ -18,6 +18,11 @@ constexpr double kWidest = 4;
 constexpr int kMostTrueMirrors = 40;
 /// The part of the width between the first crossing and the last, with true angles.
 constexpr double kCrossedShare = 0.94;
+/// Radius of the arc: of the way to the nearer of the outer crossings, and of the line's height.
+constexpr double kArcShare = 0.72;
+constexpr double kLeastArc = 3;
+/// Height of the area, in the arc's radius, at most.
+constexpr double kAboveArc = 1.15;
 /// More mirrors than these are thinned.
 constexpr int kMostMirrors = 128;
 /// Mirrors are looked for up to this distance and time.
@@ -125,8 +130,11 @@ bool UnfoldedMap::place_with_true_angles(double first, double last) {
   scale_ = scale;
   level_px_ = across_ = scale * line_.height();
   corner_x_ = area_.x + area_.width / 2 - (low + high) / 2 * scale;
-  const double beside = std::min(corner_x_ - area_.x, area_.right() - corner_x_) - margin_px_;
-  arc_px_ = std::min({arc_px_, beside, area_.height});
+  // The angle's name has room between the arc and the first crossing.
+  const double crossing = std::max(kLeastArc * level_px_, kArcShare * std::min(-low, high) * scale);
+  arc_px_ = std::min({arc_px_, crossing, area_.height});
+  // What is left of a high panel is below it.
+  area_.height = std::min(area_.height, kAboveArc * arc_px_);
   has_true_angles_ = true;
   return true;
 }

@@ -34,6 +34,7 @@ constexpr double kFoldShare = 0.4;  ///< of the way to the next mirror in which 
 // Of θ, in ems.
 constexpr double kToAngleName = 0.4;  ///< from the arc
 constexpr double kAboveBase = 0.15;
+constexpr double kNameHeight = 1.05;
 
 // The n-th of the things that move, from back to front.
 constexpr std::size_t kWedge = 0;
@@ -137,14 +138,15 @@ class UnfoldedPanel {
     }
   }
 
-  /// The half-turn, and the angle of its first wedge.
+  /// The half-turn; and the angle of its first wedge, if there is room for its name below the line.
   void add_angle(const DrawingContext& context) {
     const auto arc = map_.arc();
     if (!arc) return;
     diagram_.line(arc->arc(0, std::numbers::pi), diagram_.palette().muted, diagram_.data_width());
-    if (map_.line().first_ray() != 0) return;
-    const Formula name = context.setter().italic("θ");
     const double em = diagram_.text_px();
+    const bool has_room = map_.base_y() - map_.line_y() >= kNameHeight * em;
+    if (map_.line().first_ray() != 0 || !has_room) return;
+    const Formula name = context.setter().italic("θ");
     const bool is_right = map_.line().velocity() < 0;
     const double theta = map_.line().theta() / 2;
     const double away = kToAngleName * em;

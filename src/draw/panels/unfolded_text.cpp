@@ -59,7 +59,7 @@ PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool un
   std::vector<Formula> filled;
   for (const std::string& some : {number, brief_number}) {
     const Formula angles =
-        set.text(some + " equal angles ") + set.italic("θ") + set.text(" fill half a turn");
+        set.text(some + " equal angles ") + set.italic("θ") + set.text(" fit into half a turn");
     filled.push_back(angles + set.text(", which is π: ") + half_turn_ratio(context));
     filled.push_back(angles + set.text(": ") + half_turn_ratio(context));
     filled.push_back(angles);
