@@ -32,7 +32,7 @@ std::optional<Integer> whole_root(const TwoBlocks& system) {
   return root;
 }
 
-bool fills_half_turn(const TwoBlocks& system) {
+bool fits_half_turn(const TwoBlocks& system) {
   return system.blue.velocity == 0 && system.red.velocity < 0 && system.blue_gap() > 0 &&
          !divides_pi(system.red.mass / system.blue.mass);
 }

@@ -55,7 +55,7 @@ PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool un
     crossed.push_back(set.text("A straight path crosses " + some + mirrors));
   }
   crossed.push_back(set.text("A straight path"));
-  if (!fills_half_turn(context.two_blocks().blocks())) return {path, path, crossed};
+  if (!fits_half_turn(context.two_blocks().blocks())) return {path, path, crossed};
   std::vector<Formula> filled;
   for (const std::string& some : {number, brief_number}) {
     const Formula angles =

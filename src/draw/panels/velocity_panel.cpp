@@ -51,7 +51,7 @@ PhasedTitle::Sentences sentences(const DrawingContext& context, bool has_chords)
     all.during.insert(all.during.begin(), brief + set.text(", too small to see"));
   }
   all.after = all.during;
-  if (!fills_half_turn(context.two_blocks().blocks())) return all;
+  if (!fits_half_turn(context.two_blocks().blocks())) return all;
   const Formula ratio = half_turn_ratio(context);
   all.after.insert(all.after.begin(), {set.text("2π ÷ ") + arc + set.text(" = ") + ratio, ratio});
   return all;
