@@ -44,7 +44,8 @@ enum class Overlay {
   momentum,    ///< momentum of each block, and their sum
   time,        ///< simulation time
   ruler,       ///< a scale of positions below the blocks
-  trails       ///< where discs have been lately
+  trails,      ///< where discs have been lately
+  angles       ///< the angle between two walls of discs, where they meet
 };
 
 /// Diagrams below the blocks, in step with them.
@@ -223,6 +224,7 @@ struct Sound {
 struct BodyStyle {
   std::optional<std::array<std::uint8_t, 3>> color = {};  ///< red, green, blue; else the theme's
   std::string label = {};                                 ///< one line of UTF-8, on it or above it
+  bool path = false;  ///< of a disc: shows its path since time 0
 };
 
 struct Scene {

@@ -51,7 +51,7 @@ struct FrameState {
   /// Where the bodies are while the frame is exposed; if empty, at the instant.
   std::vector<WeightedExposure> exposure = {};
   Gaps gaps = {};  ///< of two blocks beside a wall; filled in if FrameNeeds asks for them
-  /// Where each body has been lately, in the order of time; filled in if FrameNeeds asks for it.
+  /// Where each body has been, in the order of time; filled in as far as FrameNeeds asks for it.
   std::vector<std::vector<PathPoint>> trails = {};
 
   // Not filled in for a still outside of its video, or if no drawable reads them.
@@ -67,12 +67,14 @@ struct FrameNeeds {
   bool hits = false;     ///< and hits_per_s
   int trail_s = 0;       ///< of video at its usual speed that trails go back; 0 for none
   bool video_s = false;  ///< in stills too, which have to look it up
+  std::vector<std::size_t> paths = {};  ///< bodies whose trails go back to time 0
 
   FrameNeeds& operator|=(const FrameNeeds& more) {
     gaps |= more.gaps;
     hits |= more.hits;
     trail_s = std::max(trail_s, more.trail_s);
     video_s |= more.video_s;
+    paths.insert(paths.end(), more.paths.begin(), more.paths.end());
     return *this;
   }
 };

@@ -105,14 +105,16 @@ class FramePlanner {
   }
 
  private:
-  /// Discs need height: diagrams are beside them, or below them in upright frames.
+  /// Discs need height: diagrams are beside them, or below them in upright frames and below a view
+  /// that is more than twice as wide as high.
   FramePlan beside(double read_outs_height_px) {
     const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
     const double below = read_outs_height_px > 0 ? read_outs_height_px + sizes_.gap / 2 : 0;
     const double height = bottom - top_ - below;
     if (height < kLeastStage * sizes_.short_side) throw_no_room();
     Rect diagrams{left_, top_, right_ - left_, height};
-    if (view_.width_px >= view_.height_px) {
+    const bool is_flat = view_.x.high - view_.x.low > 2 * (view_.y.high - view_.y.low);
+    if (view_.width_px >= view_.height_px && !is_flat) {
       const double stage = kPlaneStage * view_.width_px;
       plan_.stage = {0, top_, stage, height};
       diagrams.x = stage + sizes_.gap / 2;

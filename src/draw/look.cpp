@@ -162,7 +162,7 @@ Color readable(const Color& color, const Palette& palette, double least) {
   return palette.text;
 }
 
-/// More bodies than this have one colour, unless the scene says otherwise.
+/// Of more bodies than this all but the heaviest have one colour.
 constexpr std::size_t kMostColored = 12;
 
 /// Beside blue and red: green, orange, purple, and a blue green (Okabe and Ito, "Color Universal
@@ -188,6 +188,32 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
   const Color text = contrast(fill, kWhite) > contrast(fill, kBlack) ? kWhite : kBlack;
   const Color line = readable(fill, palette, 3.2);
   return {fill, readable(edge, palette, 3.2), text, line, readable(fill, palette, 4.8), 0, ""};
+}
+
+/// Of each body, the place of its colour among blue, red and further ones. See colors_of().
+std::vector<std::size_t> color_places(const std::vector<Body>& bodies) {
+  std::vector<Rational> masses;  // each once, from the lightest
+  for (const Body& body : bodies) masses.push_back(body.mass.value_or(0));
+  std::ranges::sort(masses);
+  masses.erase(std::unique(masses.begin(), masses.end()), masses.end());
+  std::erase(masses, 0);
+  std::vector<std::size_t> places;
+  std::size_t movable = 0;
+  for (const Body& body : bodies) {
+    const auto found = std::ranges::lower_bound(masses, body.mass.value_or(0));
+    const auto rank = static_cast<std::size_t>(found - masses.begin());
+    const bool is_heaviest = masses.size() > 1 && rank + 1 == masses.size();
+    if (body.name == "blue" || body.name == "red") {
+      places.push_back(body.name == "red" ? 1 : 0);
+    } else if (bodies.size() > kMostColored || is_heaviest) {
+      places.push_back(is_heaviest ? 1 : 0);
+    } else if (masses.size() > 1) {
+      places.push_back(rank == 0 ? 0 : 2 + (rank - 1) % kOnDark.size());
+    } else {
+      places.push_back(body.mass ? movable++ % (2 + kOnDark.size()) : 0);
+    }
+  }
+  return places;
 }
 
 /// See colors_of().
@@ -243,6 +269,7 @@ std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) 
     if (has_bars) turns.back().bars = kBars.at(turns.size() - 1);
   }
   const BlockColors fixed = colors_from(palette.muted, theme, palette);
+  const std::vector<std::size_t> places = color_places(all);
   std::vector<BlockColors> colors;
   colors.reserve(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -253,7 +280,7 @@ std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) 
     } else if (!all[i].mass) {
       colors.push_back(fixed);
     } else {
-      colors.push_back(turns[all.size() > kMostColored ? 0 : i % turns.size()]);
+      colors.push_back(turns[places[i]]);
     }
   }
   if (blocks != nullptr) name(colors[blocks->blue_id], colors[blocks->red_id], *blocks);

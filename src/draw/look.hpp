@@ -50,8 +50,10 @@ Palette palette_of(Theme theme);
 /// @param colors  of the bodies
 Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<BlockColors>& colors);
 
-/// Of each body: the colour that the scene gives it; else those of blue and red, and further ones,
-/// in turn. A body that no collision moves has the colour of walls. Two blocks beside something
+/// Of each body: the colour that the scene gives it; else by mass: blue for the lightest, red for
+/// the heaviest, further ones for those between. Where all masses are equal these colours follow in
+/// turn. Blue and red of a scene with short names have their own. Of very many bodies all but the
+/// heaviest are blue. A body that no collision moves has the colour of walls. Two blocks beside something
 /// immovable have names: their colours if these are the theme's, and have names; else they are
 /// large and small, or left and right if their masses are equal.
 /// @param blocks  nullptr for other bodies

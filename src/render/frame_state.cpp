@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -195,6 +196,7 @@ void add_hits(FrameState& state, const Log& log, const VideoTime& video_time) {
 FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds& needs,
                        const Rational& speed, const std::optional<VideoTime>& video_time) {
   constexpr std::size_t kMostCorners = 100;
+  constexpr std::size_t kAllCorners = std::numeric_limits<std::size_t>::max();
   FrameState state{
       .state = log.state_at(shown.time), .time = shown.time, .slowdown = shown.slowdown};
   for (const TimeSlice& slice : shown.exposure) {
@@ -204,6 +206,11 @@ FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds&
   if (needs.trail_s > 0) {
     const Rational from = std::max<Rational>(0, shown.time - speed * needs.trail_s);
     state.trails = log.paths(from, shown.time, kMostCorners);
+  }
+  if (!needs.paths.empty()) {
+    std::vector<std::vector<PathPoint>> whole = log.paths(0, shown.time, kAllCorners);
+    state.trails.resize(whole.size());
+    for (const std::size_t body : needs.paths) state.trails[body] = std::move(whole[body]);
   }
   if (video_time) state.video_s = to_double(video_time->video_s);
   if (video_time && needs.hits) add_hits(state, log, *video_time);

@@ -87,6 +87,7 @@ constexpr auto kBodyKeys = std::to_array<BodyKey>({
      [](ReadBody& body, const Values& values) { body.style.color = parse_color(single(values)); }},
     {"label",
      [](ReadBody& body, const Values& values) { body.style.label = parse_label(single(values)); }},
+    {"path", [](ReadBody& body, const Values& values) { body.style.path = parse_bool(values); }},
 });
 
 std::vector<std::string> names_of(std::span<const BodyKey> keys) {
@@ -292,12 +293,12 @@ std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& sc
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const Body& body = system.bodies[i];
     const BodyStyle& style = scene.styles[i];
-    lines.emplace_back(
-        fmt::format("body {}", i + 1),
-        fmt::format("{} {} at {} with {}, size {}, color '{}', label '{}'",
-                    system.dimensions == 1 ? "block" : "disc",
-                    body.mass ? body.mass->get_str() : "inf", text_of(body.position),
-                    text_of(body.velocity), body.size.get_str(), color_text(style), style.label));
+    lines.emplace_back(fmt::format("body {}", i + 1),
+                       fmt::format("{} {} at {} with {}, size {}, color '{}', label '{}', path {}",
+                                   system.dimensions == 1 ? "block" : "disc",
+                                   body.mass ? body.mass->get_str() : "inf", text_of(body.position),
+                                   text_of(body.velocity), body.size.get_str(), color_text(style),
+                                   style.label, style.path));
   }
   for (const Wall& wall : system.walls) {
     lines.emplace_back(fmt::format("{} wall", wall.name),

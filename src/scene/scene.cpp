@@ -150,6 +150,8 @@ void check_fits(const Scene& scene, SceneProblems& problems) {
   const bool is_plane = scene.system.dimensions == 2;
   problems.require(is_plane || !show.has(Overlay::trails), "show.overlays",
                    "'trails' is for discs; blocks have the diagram 'time'");
+  problems.require(is_plane || !show.has(Overlay::angles), "show.overlays",
+                   "'angles' is for walls of discs; leave it out");
   problems.require(!is_plane || !show.has(Overlay::ruler), "show.overlays",
                    "'ruler' is for blocks on a line");
   const bool is_pair = two_blocks_of(scene.system).has_value();
@@ -242,8 +244,11 @@ std::vector<Problem> problems_of(const Scene& scene) {
   problems.require(scene.styles.size() == scene.system.bodies.size(), "body",
                    "must have one style for each body");
   for (std::size_t i = 0; i < scene.styles.size(); ++i) {
-    const std::string& label = scene.styles[i].label;
-    if (!label.empty()) check_line(fmt::format("body {}.label", i + 1).c_str(), label, problems);
+    const BodyStyle& style = scene.styles[i];
+    const std::string key = fmt::format("body {}.", i + 1);
+    if (!style.label.empty()) check_line((key + "label").c_str(), style.label, problems);
+    problems.require(!style.path || scene.system.dimensions == 2, key + "path",
+                     "is for discs; blocks have the diagram 'time'");
   }
   check_elastic(scene, problems);
   check_fits(scene, problems);

@@ -70,13 +70,7 @@ void read(Range& target, const Values& values) {
   if (values.size() != 2) throw UsageError("must be two numbers, as [-1, 12]");
   target = {parse_rational(values[0]), parse_rational(values[1])};
 }
-void read(bool& target, const Values& values) {
-  const std::string& text = single(values);
-  if (text != "true" && text != "false") {
-    throw UsageError(must_be_one_of(text, {"true", "false"}));
-  }
-  target = text == "true";
-}
+void read(bool& target, const Values& values) { target = parse_bool(values); }
 void read(Background& target, const Values& values) {
   const std::string& name = single(values);
   if (name != "opaque" && name != "transparent") {
@@ -261,6 +255,14 @@ Values list_of(const Values& values) {
 const std::string& single(const Values& values) {
   if (values.size() != 1) throw UsageError("must be one value");
   return values.front();
+}
+
+bool parse_bool(const Values& values) {
+  const std::string& text = single(values);
+  if (text != "true" && text != "false") {
+    throw UsageError(must_be_one_of(text, {"true", "false"}));
+  }
+  return text == "true";
 }
 
 std::string joined(const Values& values) {

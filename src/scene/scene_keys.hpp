@@ -37,6 +37,9 @@ Values list_of(const Values& values);
 /// The value of a key that takes one. @throws UsageError if there are more.
 const std::string& single(const Values& values);
 
+/// "true" or "false". @throws UsageError if it is neither.
+bool parse_bool(const Values& values);
+
 /// The values as one text for a message.
 std::string joined(const Values& values);
 

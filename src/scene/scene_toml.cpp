@@ -74,6 +74,7 @@ std::string body_text(const Scene& scene, std::size_t number) {
                   dimensions == 1 ? "width" : "radius", scalar(body.size.get_str()));
   if (style.color) text += ", color = " + toml_string(color_text(style));
   if (!style.label.empty()) text += ", label = " + toml_string(style.label);
+  if (style.path) text += ", path = true";
   return text + " }";
 }
 

@@ -34,7 +34,8 @@ constexpr auto kOverlays = std::to_array<Name<Overlay>>({{"digits", Overlay::dig
                                                          {"momentum", Overlay::momentum},
                                                          {"time", Overlay::time},
                                                          {"ruler", Overlay::ruler},
-                                                         {"trails", Overlay::trails}});
+                                                         {"trails", Overlay::trails},
+                                                         {"angles", Overlay::angles}});
 constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocity},
                                                      {"position", Panel::position},
                                                      {"unfolded", Panel::unfolded},

@@ -42,12 +42,13 @@ std::string row_json(const Scene& scene, std::size_t i) {
   const Body& body = scene.system.bodies[i];
   const BodyStyle& style = scene.styles[i];
   const int dimensions = scene.system.dimensions;
-  return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{}}})",
+  return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{},)"
+                     R"("path":{}}})",
                      json_text(body.mass ? body.mass->get_str() : "inf"),
                      json_texts(coordinates_of(body.position, dimensions)),
                      json_texts(coordinates_of(body.velocity, dimensions)),
                      json_text(body.size.get_str()), json_text(color_text(style)),
-                     json_text(style.label));
+                     json_text(style.label), style.path);
 }
 
 /// Both ends of the box along an axis.

@@ -84,6 +84,35 @@ TEST(Theme, BodiesStandOutFromTheirGround) {
   }
 }
 
+/// By mass: the lightest is blue and the heaviest red, wherever they are in the file.
+TEST(Theme, TheLightBodyIsBlueAndTheHeavyOneRed) {
+  const auto fills = [](const std::vector<std::optional<Rational>>& masses, const char* name = "") {
+    Scene scene = scene_of(masses.size(), Theme::lecture);
+    for (std::size_t i = 0; i < masses.size(); ++i) scene.system.bodies[i].mass = masses[i];
+    scene.system.bodies[0].name = name;
+    std::vector<Color> found;
+    for (const BlockColors& colors : colors_of(scene, nullptr)) found.push_back(colors.fill);
+    return found;
+  };
+  const Palette palette = palette_of(Theme::lecture);
+  const Color blue = palette.blue.fill;
+  const Color red = palette.red.fill;
+  EXPECT_EQ(fills({10, 1}), (std::vector{red, blue}));
+  EXPECT_EQ(fills({10, 1}, "blue"), (std::vector{blue, blue})) << "its key has a name";
+  const std::vector<Color> row = fills({1, 2, 4, 8, 4, 2, 1});
+  EXPECT_EQ((std::vector{row[0], row[3], row[6]}), (std::vector{blue, red, blue}));
+  EXPECT_EQ((std::vector{row[1], row[2]}), (std::vector{row[5], row[4]})) << "equal masses";
+  EXPECT_NE(row[1], row[2]);
+  EXPECT_EQ(fills({std::nullopt, 1, std::nullopt, 1})[1], blue)
+      << "equal masses have theirs in turn";
+  EXPECT_EQ(fills({std::nullopt, 1, std::nullopt, 1})[3], red);
+  std::vector<std::optional<Rational>> many(20, Rational(1));
+  EXPECT_EQ(std::ranges::count(fills(many), blue), 20);
+  many[7] = 50;
+  EXPECT_EQ(fills(many)[7], red);
+  EXPECT_EQ(std::ranges::count(fills(many), blue), 19);
+}
+
 TEST(Theme, BlocksDifferFromEachOther) {
   for (const Theme theme : kThemes) {
     const Palette palette = palette_of(theme);

@@ -62,6 +62,10 @@ TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
       "time 0");
   expect_problem(body + "[show]\noverlays = ['trails']\n",
                  "4: show.overlays 'trails' is for discs; blocks have the diagram 'time'");
+  expect_problem(body + "[show]\noverlays = ['angles']\n",
+                 "4: show.overlays 'angles' is for walls of discs; leave it out");
+  expect_problem("[[body]]\nposition = 1\npath = true\n",
+                 "1: body 1.path is for discs; blocks have the diagram 'time'");
   expect_problem("[show]\noverlays = ['trails']\n",
                  "2: show.overlays 'trails' is for discs; blocks have the diagram 'time'");
 }

@@ -29,6 +29,7 @@ TEST_F(BodiesFile, KeysOfABodyAreChecked) {
   expect_problem(body + "color = '#12345g'\n",
                  "3: body 1.color = #12345g: must be a colour as \"#1f77b4\"");
   expect_problem(body + "label = \"a\\tb\"\n", "3: body 1.label = a\tb: must be one line of text");
+  expect_problem(body + "path = 'yes'\n", "3: body 1.path = yes: must be true or false");
   expect_problem("[[body]]\nwidth = 1\n", "1: body 1.position: is missing");
   expect_problem("[[body]]\nposition = 'here'\n",
                  "2: body 1.position = here: not a number such as 16, 2.5, 1/3 or 1e6");

@@ -179,6 +179,7 @@ TEST_F(BodiesFile, DescriptionsDifferByEveryProperty) {
       "[time]\nto = 3\n[box]\nx = [0, 'inf']\n[[body]]\nposition = 10\n",
       discs,
       discs + "radius = 2\n",
+      discs + "path = true\n",
       discs + "velocity = [0, 1]\n",
       discs + "velocity = [1, 0]\n",
       discs + "[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\n",

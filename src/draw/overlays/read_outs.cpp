@@ -297,9 +297,9 @@ ReadOut fitted(const LayoutContext& context,
   }
 }
 
-/// From which time on the picture may be wrong.
+/// From this time on the picture may be wrong.
 ReadOut certainty_read_out(const LayoutContext& context, double until) {
-  const std::string text = fmt::format("not certain from t = {} on", rounded_down(until));
+  const std::string text = "from here on rounding may decide";
   return {"certainty", text,
           [=](const FrameState& shown) {
             return to_double(shown.time) >= until ? text : std::string();

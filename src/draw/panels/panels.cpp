@@ -139,10 +139,22 @@ void Diagram::formula(const Formula& formula, const Point& at, double anchor, co
   formula.add_to(items_, next_id(), {left, at.y}, text_px_, color);
 }
 
-void Diagram::tick(const Point& at, const std::string& figure, double figure_x) {
-  line({at, {at.x, at.y + kTick * text_px_}}, palette_.muted);
-  if (figure.empty()) return;
-  text(figure, {figure_x, at.y + kFigureBaseline * text_px_}, 0.5, palette_.muted);
+void Diagram::axis(const Point& from, const Point& to, std::span<const Figure> figures,
+                   const std::string& name) {
+  const double baseline = to.y + kFigureBaseline * text_px_;
+  const double end = to.x - (font_->width_em(name) + kLeastGap) * text_px_;
+  const auto is_before_name = [&](const Figure& figure) {
+    return !figure.text.empty() && figure.x + figure.width_px / 2 <= end;
+  };
+  // One figure alone gives no scale.
+  const bool is_named = std::ranges::count_if(figures, is_before_name) >= 2;
+  line({from, to}, palette_.muted);
+  for (const Figure& figure : figures) {
+    line({{figure.x, to.y}, {figure.x, to.y + kTick * text_px_}}, palette_.muted);
+    const bool is_written = is_named ? is_before_name(figure) : !figure.text.empty();
+    if (is_written) text(figure.text, {figure.x, baseline}, 0.5, palette_.muted);
+  }
+  if (is_named) text(name, {to.x, baseline}, 1, palette_.muted);
 }
 
 TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)
@@ -174,15 +186,15 @@ TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double
   for (int pass = 0; pass < kPasses; ++pass) {
     place_figures(context.font, em);
     if (figures_.empty()) return;
-    const Figure& first = figures_.front();
-    const Figure& last = figures_.back();
+    const Diagram::Figure& first = figures_.front();
+    const Diagram::Figure& last = figures_.back();
     const double left = std::max(0.0, inside_left - (first.x - first.width_px / 2));
     const double right = std::max(0.0, last.x + last.width_px / 2 - inside_right);
     plot_.x += left;
     plot_.width -= left + right;
   }
   place_figures(context.font, em);
-  for (Figure& figure : figures_) {
+  for (Diagram::Figure& figure : figures_) {
     const bool fits = figure.x - figure.width_px / 2 >= inside_left - kSlack_px &&
                       figure.x + figure.width_px / 2 <= inside_right + kSlack_px;
     if (!fits) figure.text.clear();
@@ -203,11 +215,6 @@ void TimeAxis::place_figures(const Font& font, double em) {
     const double width_px = font.width_em(text) * em;
     figures_.push_back({x_of(value), std::move(text), width_px});
   }
-}
-
-void TimeAxis::add_base(Diagram& diagram) const {
-  diagram.line({{plot_.x, bottom()}, {plot_.right(), bottom()}}, diagram.palette().muted);
-  for (const Figure& figure : figures_) diagram.tick({figure.x, bottom()}, figure.text, figure.x);
 }
 
 RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, const Point& present) const {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,8 +115,15 @@ class Diagram {
   /// @param anchor  the part of the text's width that is left of `at`: 0, 0.5 or 1
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
   void formula(const Formula& formula, const Point& at, double anchor, const Color& color);
-  /// A tick of an axis, and a figure below it. @param figure_x  of its middle
-  void tick(const Point& at, const std::string& figure, double figure_x);
+  /// At a tick of an axis. The text is empty if it has no room.
+  struct Figure {
+    double x;  ///< of the tick, and of the text's middle
+    std::string text;
+    double width_px;
+  };
+  /// An axis with ticks. Its name is at its end, in the place of figures, if two others remain.
+  void axis(const Point& from, const Point& to, std::span<const Figure> figures,
+            const std::string& name);
 
   // The n-th of the things that move, which are above all that stays.
   ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }
@@ -226,26 +234,22 @@ class TimeAxis {
   }
 
   /// Axis, ticks and figures.
-  void add_base(Diagram& diagram) const;
+  void add_base(Diagram& diagram) const {
+    diagram.axis({plot_.x, bottom()}, {right(), bottom()}, figures_, "time");
+  }
   /// Marks the present as the n-th of the things that move, from the axis to a height. A rectangle
   /// on whole pixels costs less than a line.
   RectangleItem cursor(const Diagram& diagram, std::size_t n, const Point& present) const;
 
  private:
-  struct Figure {
-    double x;
-    std::string text;
-    double width_px;
-  };
-
   void place_figures(const Font& font, double em);
 
   Span span_;
   double from_;
   double length_;
   Rect plot_;
-  double scale_ = 1;             ///< pixels per unit of time
-  std::vector<Figure> figures_;  ///< one at each tick; its text is empty if it has no room
+  double scale_ = 1;  ///< pixels per unit of time
+  std::vector<Diagram::Figure> figures_;
 };
 
 }  // namespace piblocks

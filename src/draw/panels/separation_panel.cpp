@@ -72,6 +72,8 @@ class SeparationPanel {
     add_path(context.log);
     add_touches(context.font);
     axis_.add_base(diagram_);
+    diagram_.text("distance²", {axis_.plot().x, axis_.plot().y + 0.8 * diagram_.text_px()}, 0,
+                  diagram_.palette().muted);
     diagram_.finish();
   }
 
@@ -87,6 +89,8 @@ class SeparationPanel {
 
  private:
   static constexpr int kPoints = 240;
+  /// Above the curves, for the name of what they show.
+  static constexpr double kNameRoom_em = 1.3;
 
   static std::vector<Formula> titles(const DrawingContext& context) {
     const FormulaSetter set = context.setter();
@@ -100,7 +104,8 @@ class SeparationPanel {
   }
 
   Point place_of(double time, double square) const {
-    return {axis_.x_of(time), axis_.bottom() - square / top_ * axis_.plot().height};
+    const double height = axis_.plot().height - kNameRoom_em * diagram_.text_px();
+    return {axis_.x_of(time), axis_.bottom() - square / top_ * height};
   }
 
   /// The line at the square of the sum of the radii.

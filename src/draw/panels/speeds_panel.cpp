@@ -21,6 +21,8 @@ constexpr double kFastest = 2.6;
 /// Part of the diagram's height that the curve's maximum takes.
 constexpr double kCurveHeight = 0.62;
 constexpr int kCurvePoints = 160;
+/// Of the figure 0, which is centred on the axis's beginning.
+constexpr double kHalfZero_em = 0.32;
 
 std::vector<double> masses_of(const System& system) {
   std::vector<double> masses;
@@ -75,7 +77,9 @@ class SpeedsPanel {
         plot_(diagram_.inside()),
         fastest_(kFastest * maxwell_.usual_speed()),
         bins_(std::clamp(int(std::sqrt(maxwell_.movable())), kLeastBins, kMostBins)) {
-    plot_.height -= kBelowAxis_em * diagram_.text_px();
+    const double half_figure = kHalfZero_em * diagram_.text_px();
+    plot_ = {plot_.x + half_figure, plot_.y, plot_.width - half_figure,
+             plot_.height - kBelowAxis_em * diagram_.text_px()};
     add_axis(context);
     add_curve();
     diagram_.finish();
@@ -134,13 +138,15 @@ class SpeedsPanel {
   void add_axis(const DrawingContext& context) {
     const double em = diagram_.text_px();
     const Ticks ticks = ticks_of(0, fastest_, kBetweenTicks_em * em * fastest_ / plot_.width);
+    std::vector<Diagram::Figure> figures;
     for (const double value : ticks.values) {
       const double x = plot_.x + value / fastest_ * plot_.width;
       const std::string text = tick_text(value, ticks.step);
-      const double half = context.font.width_em(text) * em / 2;
-      const bool has_room = x + half <= plot_.right();
-      diagram_.tick({x, plot_.bottom()}, has_room ? text : "", std::max(x, plot_.x + half));
+      const double width = context.font.width_em(text) * em;
+      const bool has_room = x + width / 2 <= plot_.right();
+      figures.push_back({x, has_room ? text : "", width});
     }
+    diagram_.axis({plot_.x, plot_.bottom()}, {plot_.right(), plot_.bottom()}, figures, "speed");
   }
 
   void add_curve() {

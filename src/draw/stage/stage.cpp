@@ -38,6 +38,7 @@ class Discs {
   explicit Discs(const DrawingContext& context)
       : frame_{0, 0, context.scene.view.width_px, context.scene.view.height_px},
         layout_(context.layout),
+        data_line_px_(context.sizes.data_line),
         colors_(context.colors) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -66,9 +67,10 @@ class Discs {
   void add_trails(const std::vector<std::vector<PathPoint>>& trails,
                   std::vector<DrawItem>& items) const {
     for (std::size_t i = 0; i < trails.size(); ++i) {
+      if (trails[i].empty()) continue;
       std::vector<Point> points;
       for (const PathPoint& point : trails[i]) points.push_back(layout_.at(point.position));
-      const double width_px = std::clamp(radius_px(i) / 2, 1.0, 6.0);
+      const double width_px = std::min(std::max(1.0, radius_px(i) / 2), data_line_px_);
       items.emplace_back(PathItem{nth(ItemId::wall, kTrails + i), std::move(points), false,
                                   std::nullopt,
                                   Stroke{faded(colors_[i].fill, kTrailOpacity), width_px}});
@@ -86,6 +88,7 @@ class Discs {
 
   PixelRect frame_;
   Layout layout_;
+  double data_line_px_;
   std::vector<BlockColors> colors_;
 };
 
@@ -135,7 +138,11 @@ void add_blocks(const FrameState& shown, const Layout& layout,
 
 Drawable bodies(const DrawingContext& context) {
   if (context.is_plane()) {
-    return {Discs(context), {.trail_s = context.scene.show.has(Overlay::trails) ? kTrail_s : 0}};
+    FrameNeeds needs{.trail_s = context.scene.show.has(Overlay::trails) ? kTrail_s : 0};
+    for (std::size_t i = 0; i < context.scene.styles.size(); ++i) {
+      if (context.scene.styles[i].path) needs.paths.push_back(i);
+    }
+    return {Discs(context), std::move(needs)};
   }
   return {[cover = cover_of(context), layout = context.layout, colors = context.colors](
               const FrameState& shown, std::vector<DrawItem>& items) {

@@ -142,10 +142,13 @@ Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
       std::round(layout.window.width / 2 - to_double(view.x.high + view.x.low) / 2 * layout.scale),
       std::round(layout.window.height / 2 +
                  to_double(view.y.high + view.y.low) / 2 * layout.scale)};
-  for (const Body& body : system.bodies) {
-    const double diameter = 2 * to_double(body.size);
-    layout.shapes.push_back({diameter, diameter * layout.scale});
-    check_radius(diameter / 2 * layout.scale, layout.shapes.size());
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    // One whose path is shown is seen, however small it is.
+    const double least_px =
+        context.scene.styles[i].path ? style::kPresentDot * sizes.short_side : 0;
+    const double radius_px = std::max(least_px, to_double(system.bodies[i].size) * layout.scale);
+    layout.shapes.push_back({2 * radius_px / layout.scale, 2 * radius_px});
+    check_radius(radius_px, i + 1);
   }
   return layout;
 }

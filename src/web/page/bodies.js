@@ -14,6 +14,7 @@ function bodyText(row, dimensions) {
     `${dimensions === 1 ? "width" : "radius"} = ${quoted(row.size)}`];
   if (row.color) lines.push(`color = ${quoted(row.color)}`);
   if (row.label) lines.push(`label = ${quoted(row.label)}`);
+  if (row.path) lines.push("path = true");
   return lines.join("\n");
 }
 
