@@ -157,8 +157,9 @@ FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film,
   }
 }
 
-FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& making) {
-  if (making.use == FilmUse::pictures) card_ = compose_card(card.lines, film);
+FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& making)
+    : card_(card) {
+  if (making.use == FilmUse::pictures) card_picture_ = compose_card(card.lines, film);
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > to_integer(kMaxFrames)) {
     throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
@@ -204,12 +205,18 @@ PixelRect FilmSegment::cell(std::size_t run) const {
 }
 
 DrawList FilmSegment::frame(std::int64_t number) const {
-  if (runs_.empty()) return card_;
+  if (runs_.empty()) return card_picture_;
   if (!split_) return runs_.front().frame(*schedule_, number);
   std::vector<DrawList> pictures;
   pictures.reserve(runs_.size());
   for (const FilmRun& run : runs_) pictures.push_back(run.frame(*schedule_, number));
   return split_->compose(std::move(pictures));
+}
+
+std::int64_t FilmSegment::furthest_frame() const {
+  // A loop shows its first frame and the one at which it turns back once.
+  const bool is_loop = !runs_.empty() && runs_.front().scene().pacing.loop;
+  return is_loop ? frame_count_ / 2 : frame_count_ - 1;
 }
 
 Film::Film(const Script& script, const FilmMaking& making) : view_(view_of(script)) {
@@ -279,7 +286,7 @@ DrawList Film::frame(std::int64_t number) const {
   const std::int64_t steps = placed.fade_frames + 1;
   const std::int64_t to_middle = steps - 2 * (in_segment + 1);  // in half steps; < 0 past it
   const double opacity = double(std::abs(to_middle)) / double(steps);
-  if (to_middle < 0) return faded(placed.segment.frame(in_segment), opacity);
+  if (number >= placed.first_seen()) return faded(placed.segment.frame(in_segment), opacity);
   const PlacedSegment& before = *std::prev(next, 2);
   return faded(before.segment.frame(number - before.first_frame), opacity);
 }
