@@ -34,7 +34,8 @@ struct Shard {
 /// poster, captions, a text for those who cannot see it, ways to show it.
 struct Bundle {
   std::string folder;
-  /// What the poster shows; without it, the frame that comes furthest in time.
+  /// What the poster shows; without it, the frame that comes furthest in time. Of a storyboard it
+  /// is that of the last part with a diagram, else of the last run.
   std::optional<Instant> poster = {};
 };
 

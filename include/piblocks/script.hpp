@@ -25,6 +25,9 @@ struct Card {
   std::vector<std::string> becomes = {};
 };
 
+/// The share of a card's length after which its lines become others.
+inline const Rational kCardChanges(2, 5);
+
 /// How runs that are compared share the frame.
 enum class Split {
   automatic,  ///< in columns if the frame is wider than high, else in rows

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -12,8 +14,6 @@
 #include "core/text.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"
-#include "scene/run_log.hpp"
-#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
@@ -56,19 +56,13 @@ void check_bundle(const RenderJob& job) {
   if (job.shard) {
     problems.emplace_back("bundle: a bundle has no parts; leave --bundle or --part out");
   }
-  const auto* scene = std::get_if<Scene>(&job.script);
-  if (scene == nullptr) {
-    problems.emplace_back(
-        "bundle: captions count one run, and a storyboard has several; render it without a bundle, "
-        "or a scene without [[part]]");
-  }
   if (!has_ending(job.output, ".mp4") || !is_plain(job.output)) {
     problems.push_back(fmt::format(
         "bundle: '{}' is no name for the video in it; use one such as pi-3.mp4, without a folder, "
         "of letters, digits, '-', '_' and '.'",
         job.output));
   }
-  if (scene != nullptr && scene->view.background == Background::transparent) {
+  if (view_of(job.script).background == Background::transparent) {
     problems.push_back(
         fmt::format("bundle: '{}' cannot be transparent; use an opaque background, or write a "
                     "*.mov or *.webm without a bundle",
@@ -82,19 +76,33 @@ void add(FileSet& files, const char* name, std::string_view text) {
   files.add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-/// Writes the poster: the instant that was asked for, or else the last frame.
-void write_poster(const RenderJob& job, const Film& film, std::int64_t last, FileSet& files,
-                  const std::stop_token& stop) {
-  const DrawList poster =
-      job.bundle->poster ? still_picture(film, *job.bundle->poster) : film.frame(last);
-  files.add(kPoster, draw_png(poster, stop));
+/// How much a segment proves: with a diagram more than without, with a run more than a card.
+int proof_of(const PlacedSegment& placed) {
+  const std::span<const FilmRun> runs = placed.segment.runs();
+  const auto has_diagram = [](const FilmRun& run) { return !run.scene().show.panels.empty(); };
+  return int(!runs.empty()) + int(std::ranges::any_of(runs, has_diagram));
 }
 
-void write_texts(const RenderJob& job, const std::string& alt, std::string_view captions,
-                 FileSet& files) {
-  const View& view = std::get<Scene>(job.script).view;
+/// The last picture of the last segment that proves most.
+DrawList poster_of(const Film& film) {
+  const auto segments = film.segments();
+  const auto proves_less = [](const auto& a, const auto& b) { return proof_of(a) < proof_of(b); };
+  const FilmSegment& best =
+      std::max_element(segments.rbegin(), segments.rend(), proves_less)->segment;
+  return best.frame(best.furthest_frame());
+}
+
+void write_poster(const RenderJob& job, const Film& film, FileSet& files,
+                  const std::stop_token& stop) {
+  const auto& poster = job.bundle->poster;
+  files.add(kPoster, draw_png(poster ? still_picture(film, *poster) : poster_of(film), stop));
+}
+
+void write_texts(const RenderJob& job, const Film& film, FileSet& files) {
+  const View& view = film.view();
+  const std::string alt = describe_film(film);
   add(files, kAltText, alt + "\n");
-  add(files, kCaptions, captions);
+  add(files, kCaptions, captions(film));
   add(files, kLatexFile,
       fmt::format(kLatex, fmt::arg("name", job.output),
                   fmt::arg("height", fmt::format("{:.4f}", 0.9 * view.height_px / view.width_px))));
@@ -135,15 +143,9 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
   check_bundle(job);
   if (!job.overwrite) check_names(*job.bundle);
   const Film film = film_of(job, stop);
-  const FilmSegment& segment = *film.scene();
-  const FilmRun& shown = segment.runs().front();
-  const Scene& scene = shown.scene();
-  const Log& run = shown.log();
-  const Schedule& schedule = *segment.schedule();
   FileSet files(job.bundle->folder, "bundle");
-  write_poster(job, film, frames_before_reversal(scene, schedule) - 1, files, stop);
-  write_texts(job, describe_video(scene, run, video_count(scene, run, schedule)),
-              captions(scene, run, schedule), files);
+  write_poster(job, film, files, stop);
+  write_texts(job, film, files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);

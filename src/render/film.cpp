@@ -49,10 +49,9 @@ std::function<DrawList(std::int64_t)> card_frames(const Card& card, const View& 
   if (card.becomes.empty()) {
     return [picture = compose_card(card.lines, film)](std::int64_t /*number*/) { return picture; };
   }
-  constexpr double kFrom = 0.4;  // of the card's length
   constexpr double kLength_s = 0.6;
   const double rate = to_double(film.frame_rate);
-  const double from_s = kFrom * to_double(card.length_s);
+  const double from_s = to_double(kCardChanges * card.length_s);
   return [=, picture = ChangingCard(card.lines, card.becomes, film)](std::int64_t number) {
     const double passed = (double(number) / rate - from_s) / kLength_s;
     return picture.picture(smooth_step(std::clamp(passed, 0.0, 1.0)));
@@ -173,14 +172,15 @@ FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film,
   }
 }
 
-FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& making) {
+FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& making)
+    : card_(card) {
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > to_integer(kMaxFrames)) {
     throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
                                  readable(frames), readable(to_integer(kMaxFrames))));
   }
   frame_count_ = frames.get_si();
-  if (making.use == FilmUse::pictures) card_ = card_frames(card, film);
+  if (making.use == FilmUse::pictures) card_frame_ = card_frames(card, film);
 }
 
 void FilmSegment::show_one(Scene scene, const FilmMaking& making) {
@@ -220,12 +220,18 @@ PixelRect FilmSegment::cell(std::size_t run) const {
 }
 
 DrawList FilmSegment::frame(std::int64_t number) const {
-  if (runs_.empty()) return card_(number);
+  if (runs_.empty()) return card_frame_(number);
   if (!split_) return runs_.front().frame(*schedule_, number);
   std::vector<DrawList> pictures;
   pictures.reserve(runs_.size());
   for (const FilmRun& run : runs_) pictures.push_back(run.frame(*schedule_, number));
   return split_->compose(std::move(pictures));
+}
+
+std::int64_t FilmSegment::furthest_frame() const {
+  // A loop shows its first frame and the one at which it turns back once.
+  const bool is_loop = !runs_.empty() && runs_.front().scene().pacing.loop;
+  return is_loop ? frame_count_ / 2 : frame_count_ - 1;
 }
 
 Film::Film(const Script& script, const FilmMaking& making) : view_(view_of(script)) {
@@ -295,7 +301,7 @@ DrawList Film::frame(std::int64_t number) const {
   const std::int64_t steps = placed.fade_frames + 1;
   const std::int64_t to_middle = steps - 2 * (in_segment + 1);  // in half steps; < 0 past it
   const double opacity = double(std::abs(to_middle)) / double(steps);
-  if (to_middle < 0) return faded(placed.segment.frame(in_segment), opacity);
+  if (number >= placed.first_seen()) return faded(placed.segment.frame(in_segment), opacity);
   const PlacedSegment& before = *std::prev(next, 2);
   return faded(before.segment.frame(number - before.first_frame), opacity);
 }

@@ -94,7 +94,11 @@ class FilmSegment {
   std::int64_t frame_count() const noexcept { return frame_count_; }
   /// @param number  within the segment, from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
+  /// The frame that comes furthest in time: the last one, or where a loop turns back.
+  std::int64_t furthest_frame() const;
 
+  /// The words of a segment without runs.
+  const Card& card() const noexcept { return card_; }
   /// What is shown at the same time; none of a card.
   std::span<const FilmRun> runs() const noexcept { return runs_; }
   /// Where a run's picture is in the frame. @param run  its place in runs().
@@ -109,8 +113,9 @@ class FilmSegment {
   std::int64_t frame_count_ = 0;
   std::vector<FilmRun> runs_;
   std::optional<Schedule> schedule_;
-  std::optional<SplitScreen> split_;                   ///< if there are several runs
-  std::function<DrawList(std::int64_t number)> card_;  ///< if there are none
+  std::optional<SplitScreen> split_;  ///< if there are several runs
+  Card card_;                         ///< if there are none
+  std::function<DrawList(std::int64_t number)> card_frame_;
 };
 
 /// A segment and its place in the film.
@@ -119,6 +124,9 @@ struct PlacedSegment {
   std::int64_t first_frame = 0;
   /// First frames, shared with the segment before: it fades out, then this one fades in.
   std::int64_t fade_frames = 0;
+
+  /// The first frame of the film that shows it, and not the segment before.
+  std::int64_t first_seen() const noexcept { return first_frame + (fade_frames + 1) / 2; }
 };
 
 /// Const members are thread-safe.

@@ -18,8 +18,6 @@
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
 #include "render/video_text.hpp"
-#include "scene/run_log.hpp"
-#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
@@ -61,14 +59,7 @@ void check_page(const RenderJob& job) {
         "part: there are no parts of page '{}'; render it whole, or the parts of an MP4",
         job.output));
   }
-  const auto* const scene = std::get_if<Scene>(&job.script);
-  if (scene == nullptr) {
-    throw UsageError(fmt::format(
-        "page: the captions of '{}' count one run, and a storyboard has several; write an MP4, or "
-        "a page of a scene without [[part]]",
-        job.output));
-  }
-  if (scene->view.background == Background::transparent) {
+  if (view_of(job.script).background == Background::transparent) {
     throw UsageError(fmt::format(
         "output: '{}' cannot be transparent: a page shows an MP4; use an opaque background",
         job.output));
@@ -95,22 +86,19 @@ std::string base64_text(std::string_view text) {
   return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-void write_page(const FilmSegment& shown, const fs::path& video, std::int64_t frames,
-                OutputFile& page) {
-  const Scene& scene = shown.runs().front().scene();
-  const Log& run = shown.runs().front().log();
-  const Schedule& schedule = *shown.schedule();
-  const VideoCount count = video_count(scene, run, schedule);
-  const Rational& rate = scene.view.frame_rate;
+void write_page(const Film& film, const fs::path& video, OutputFile& page) {
+  const View& view = film.view();
+  const Rational& rate = view.frame_rate;
+  const bool is_loop = film.scene() != nullptr && film.scene()->runs().front().scene().pacing.loop;
   page.write(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
-      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, run, count))),
-      fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px),
+      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(film))),
+      fmt::arg("width", view.width_px), fmt::arg("height", view.height_px),
       fmt::arg("rate", rate.get_num().get_str() + "/" + rate.get_den().get_str()),
-      fmt::arg("frames", frames), fmt::arg("loop", scene.pacing.loop ? "loop " : "")));
+      fmt::arg("frames", film.frame_count()), fmt::arg("loop", is_loop ? "loop " : "")));
   add_video(video, page);
-  page.write(fmt::format(kFoot, fmt::arg("captions", base64_text(captions(scene, run, schedule))),
-                         fmt::arg("description", escaped(describe_video(scene, run, count))),
+  page.write(fmt::format(kFoot, fmt::arg("captions", base64_text(captions(film))),
+                         fmt::arg("description", escaped(describe_film(film))),
                          fmt::arg("script", kPageScript)));
 }
 
@@ -129,7 +117,7 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
   video.output = files.temporary_folder() / "video.mp4";
   Rendered rendered = render_film(video, film, on_progress, stop);
   StepClock clock(job.profile, Step::write);
-  write_page(*film.scene(), video.output, rendered.frame_count, page);
+  write_page(film, video.output, page);
   check_stop(stop);
   page.finish();
   files.commit();

@@ -1,9 +1,15 @@
 #include "render/video_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/text.hpp"
@@ -12,6 +18,54 @@
 
 namespace piblocks {
 namespace {
+
+/// A segment and those of its frames that show it: of a fade each neighbour has one half.
+struct Part {
+  const PlacedSegment& placed;
+  std::int64_t begin;
+  std::int64_t end;
+
+  const FilmSegment& segment() const { return placed.segment; }
+  std::span<const FilmRun> runs() const { return segment().runs(); }
+  /// What the counter of a run says, frame by frame.
+  std::vector<Integer> counts(const FilmRun& run) const {
+    std::vector<Integer> shown;
+    for (std::int64_t frame = begin; frame < end; ++frame) {
+      shown.push_back(run.log().count_at(segment().schedule()->time_of(frame)));
+    }
+    return shown;
+  }
+};
+
+std::vector<Part> parts_of(const Film& film) {
+  std::vector<Part> parts;
+  for (const PlacedSegment& placed : film.segments()) {
+    const std::int64_t begin = placed.first_seen();
+    if (!parts.empty()) parts.back().end = begin - parts.back().placed.first_frame;
+    parts.push_back({placed, begin - placed.first_frame, placed.segment.frame_count()});
+  }
+  return parts;
+}
+
+/// A run, and the collisions that a part of the film counts.
+struct ShownRun {
+  const Scene& scene;
+  const Log& log;
+  Integer at_end;                ///< when the film has come furthest
+  std::optional<Integer> total;  ///< of two blocks, and of all that the film shows to the end
+
+  bool is_over() const { return at_end == total; }
+  /// Whether `total` stands for infinitely many.
+  bool is_endless() const { return piblocks::is_endless(log); }
+};
+
+ShownRun shown(const FilmRun& run, const Part& part) {
+  const Log& log = run.log();
+  const std::int64_t last = std::clamp(part.segment().furthest_frame(), part.begin, part.end - 1);
+  const Integer at_end = log.count_at(part.segment().schedule()->time_of(last));
+  const bool is_known = log.knows_last() || !log.has(at_end + 1);
+  return {run.scene(), log, at_end, is_known ? std::optional(log.last()) : std::nullopt};
+}
 
 std::string motion_words(const Block& block) {
   if (block.velocity == 0) return "rests";
@@ -28,21 +82,20 @@ std::string all_collisions(const Integer& total, bool is_endless) {
   return is_endless ? "infinitely many collisions" : collisions(total);
 }
 
-std::string reached(const VideoCount& count) {
-  const std::string number = with_thousands_separators(count.at_end);
-  if (count.at_end < 0) {
-    const Integer left = -count.at_end;
+std::string reached(const ShownRun& run) {
+  const std::string number = with_thousands_separators(run.at_end);
+  if (run.at_end < 0) {
+    const Integer left = -run.at_end;
     return fmt::format("{}: {} {} to go until time 0", number, collisions(left),
                        left == 1 ? "is" : "are");
   }
-  if (!count.total) return collisions(count.at_end);
-  if (*count.total == 0) return number + ": there are no collisions from time 0 on";
-  if (count.at_end == *count.total) {
-    return all_collisions(*count.total, count.is_endless) +
-           (count.is_endless ? ", after which both blocks rest"
-                             : ", after which there are no more");
+  if (!run.total) return collisions(run.at_end);
+  if (*run.total == 0) return number + ": there are no collisions from time 0 on";
+  if (run.is_over()) {
+    const char* const then = run.is_endless() ? "both blocks rest" : "there are no more";
+    return fmt::format("{}, after which {}", all_collisions(*run.total, run.is_endless()), then);
   }
-  return fmt::format("{} of {}", number, all_collisions(*count.total, count.is_endless));
+  return fmt::format("{} of {}", number, all_collisions(*run.total, run.is_endless()));
 }
 
 std::string collision_words(const TwoBlocks& system) {
@@ -58,38 +111,137 @@ std::string bodies_of(const System& system) {
   return counted(std::ssize(system.bodies), system.dimensions == 1 ? "block" : "disc");
 }
 
-std::string describe_bodies(const System& system, const VideoCount& count) {
-  const std::string place =
-      system.walls.empty() ? "" : ", with " + counted(std::ssize(system.walls), "wall");
+/// What the count of a run proves once it is over, in words that end with a number, and the number.
+struct Proof {
+  std::string words;
+  std::string number;
+};
+
+/// "the first 3 digits of π in base 16, 3.24"; nothing if the run counts no digits of pi.
+std::optional<Proof> pi_of(const ShownRun& run) {
+  constexpr std::size_t kMostDigits = 40;
+  const int base = run.scene.show.base;
+  if (!run.log.pair() || !run.is_over() || run.is_endless()) return std::nullopt;
+  const std::string digits = counted_pi(run.log.pair()->blocks(), run.at_end, base);
+  if (digits.empty()) return std::nullopt;
+  const std::size_t count = run.at_end.get_str(base).size();
+  const std::string in_base = base == kUsualBase ? "" : fmt::format(" in base {}", base);
+  std::string words = (count == 1 ? "the first digit of π"
+                                  : fmt::format("the first {} digits of π", readable(count))) +
+                      in_base;
+  if (count > kMostDigits) return Proof{words, words};
+  return Proof{words + ", " + digits, fmt::format("π = {}…{}", digits, in_base)};
+}
+
+/// Of the first diagram that proves something about two blocks.
+std::optional<Proof> diagram_proof(const ShownRun& run) {
+  if (!run.log.pair() || !run.is_over()) return std::nullopt;
+  const std::string number = half_turn_text(run.log.pair()->blocks());
+  if (number.empty()) return std::nullopt;
+  for (const Panel panel : run.scene.show.panels) {
+    if (panel == Panel::velocity || panel == Panel::ellipse) {
+      return Proof{"Each hit cuts off an arc of 2θ on the circle of speeds: " + number, number};
+    }
+    if (panel == Panel::unfolded || panel == Panel::mirrors) {
+      const std::string angles = with_thousands_separators(run.at_end);
+      return Proof{angles + " equal angles θ fit into half a turn: " + number, number};
+    }
+  }
+  return std::nullopt;
+}
+
+/// "Masses 1 and 100", "3 blocks"
+std::string bodies_name(const Log& log) {
+  if (!log.pair()) return bodies_of(log.system());
+  const TwoBlocks& system = log.pair()->blocks();
+  return fmt::format("Masses {} and {}", short_text(system.blue.mass), short_text(system.red.mass));
+}
+
+std::string own_title(const Scene& scene) { return with_single_blanks(scene.show.title); }
+
+std::string name_of(const FilmRun& run) {
+  const std::string title = own_title(run.scene());
+  return title.empty() ? bodies_name(run.log()) : title;
+}
+
+std::string names_of(const Part& part, std::string_view between) {
+  std::vector<std::string> names;
+  for (const FilmRun& run : part.runs()) names.push_back(name_of(run));
+  return fmt::format("{}", fmt::join(names, between));
+}
+
+/// The lines of a card.
+std::string words_of(const std::vector<std::string>& lines, std::string_view between) {
+  std::vector<std::string> words;
+  for (const std::string& line : lines) words.push_back(with_single_blanks(line));
+  std::erase(words, "");
+  return fmt::format("{}", fmt::join(words, between));
+}
+
+/// What the counter reaches, and what that proves.
+std::string count_sentences(const ShownRun& run) {
+  const int base = run.scene.show.base;
+  std::string text = fmt::format("a counter reaches {}.", reached(run));
+  if (base != kUsualBase && !(run.is_over() && run.is_endless())) {
+    text += fmt::format(" It is written in base {}: {}.", base, count_text(run.at_end, base));
+  }
+  if (const auto pi = pi_of(run)) text += fmt::format(" The count has {}.", pi->words);
+  if (const auto proof = diagram_proof(run)) text += " " + proof->words;
+  return text;
+}
+
+std::string describe_scene(const ShownRun& run) {
+  if (!run.log.pair()) {
+    const System& system = run.log.system();
+    return fmt::format(
+        "{} {} {} without friction{}. All collisions are elastic, and {}", bodies_of(system),
+        system.bodies.size() == 1 ? "moves" : "move",
+        system.dimensions == 1 ? "along a line" : "in a plane",
+        system.walls.empty() ? "" : ", with " + counted(std::ssize(system.walls), "wall"),
+        count_sentences(run));
+  }
+  const TwoBlocks& system = run.log.pair()->blocks();
   return fmt::format(
-      "{} {} {} without friction{}. All collisions are elastic, and a counter reaches {}.",
-      bodies_of(system), system.bodies.size() == 1 ? "moves" : "move",
-      system.dimensions == 1 ? "along a line" : "in a plane", place, reached(count));
+      "Two blocks slide along a line without friction: the inner one, beside a wall on the {}, has "
+      "mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. {}, and {}",
+      system.side > 0 ? "left" : "right", short_text(system.blue.mass), short_text(system.red.mass),
+      motion_words(system.blue), motion_words(system.red), collision_words(system),
+      count_sentences(run));
 }
 
-/// "the first 3 digits of π", "3.14"; empty if the run counts no digits of pi.
-struct PiWords {
-  std::string which;
-  std::string digits;
-};
-
-PiWords pi_words(const Log& log, const Integer& total, int base) {
-  constexpr std::size_t kMostOfPi = 40;
-  if (!log.pair()) return {};
-  std::string digits = counted_pi(log.pair()->blocks(), total, base);
-  if (digits.empty()) return {};
-  const std::size_t count = total.get_str(base).size();
-  std::string which = count == 1 ? "the first digit of π"
-                                 : fmt::format("the first {} digits of π", readable(count));
-  if (base != kUsualBase) which += fmt::format(" in base {}", base);
-  if (count > kMostOfPi) digits.clear();
-  return {std::move(which), std::move(digits)};
+/// "31 collisions", "infinitely many collisions", "2 collisions to go until time 0"
+std::string last_count(const ShownRun& run) {
+  if (run.is_over() && run.is_endless()) return all_collisions(run.at_end, true);
+  return collisions(abs(run.at_end)) + (run.at_end < 0 ? " to go until time 0" : "");
 }
 
-struct Cue {
-  std::int64_t first_frame;
-  std::string text;
-};
+/// A run among others.
+std::string describe_briefly(const ShownRun& run) {
+  const std::string title = own_title(run.scene);
+  std::string bodies = bodies_of(run.log.system());
+  if (run.log.pair()) {
+    const TwoBlocks& system = run.log.pair()->blocks();
+    bodies = fmt::format("Two blocks of masses {} and {} beside a wall",
+                         short_text(system.blue.mass), short_text(system.red.mass));
+  }
+  std::string text = title.empty() ? bodies : fmt::format("“{}”: {}", title, bodies);
+  if (run.at_end != 0) text += (bodies.starts_with("1 ") ? " has " : " have ") + last_count(run);
+  if (const auto pi = pi_of(run)) text += ": " + pi->words;
+  text += ".";
+  if (const auto proof = diagram_proof(run)) text += " " + proof->words;
+  return text;
+}
+
+/// Frames that it takes to read a text, at least a second of them.
+Rational reading_frames(std::string_view text, const Rational& frame_rate) {
+  constexpr int kRead_per_s = 20;
+  const auto is_first_byte = [](char byte) { return (byte & 0xC0) != 0x80; };
+  const Rational length_s = Rational(std::ranges::count_if(text, is_first_byte)) / kRead_per_s;
+  return std::max<Rational>(1, length_s) * frame_rate;
+}
+
+/// Captions by their first frames in the film.
+using Cues = std::map<std::int64_t, std::string>;
 
 /// The largest power of ten that is not larger than the count, with the count's sign.
 Integer milestone_of(const Integer& count) {
@@ -98,30 +250,25 @@ Integer milestone_of(const Integer& count) {
   return count < 0 ? Integer(-power) : power;
 }
 
-/// What a film counts, and how its captions say so.
+/// What a run counts, and how its captions say so.
 class CountWords {
  public:
-  CountWords(const Scene& scene, const Log& log, const std::vector<Integer>& shown)
-      : least_(*std::ranges::min_element(shown)), most_(*std::ranges::max_element(shown)) {
-    if (log.has(most_ + 1)) return;
-    is_endless_ = is_endless(log);
-    if (is_endless_) return;
-    ending_ = ", after which there are no more";
-    const PiWords pi = pi_words(log, most_, scene.show.base);
-    if (!pi.which.empty()) ending_ += ": " + pi.which;
-    if (!pi.digits.empty()) ending_ += ", " + pi.digits;
-  }
+  CountWords(const ShownRun& run, const Integer& least, const Rational& frame_rate)
+      : least_(least), most_(run.at_end), frame_rate_(frame_rate), ends_(ends_of(run)) {}
 
-  /// @param stands  whether the count stays long enough to be given exactly
-  std::string text(const Integer& count, bool stands) {
+  /// @param frames  for which the count stays
+  std::string text(const Integer& count, std::int64_t frames) {
+    constexpr int kLong_s = 1;
     if (count == 0) {
       return least_ < 0 ? "No collision between now and time 0" : "No collision yet";
     }
     if (count == most_ && count > 0) {
-      return is_endless_ ? "Infinitely many collisions" : collisions(count) + ending_;
+      return *std::ranges::find_if(ends_.begin(), std::prev(ends_.end()), [&](const auto& end) {
+        return reading_frames(end, frame_rate_) <= frames;
+      });
     }
     const char* const until = count < 0 ? " to go until time 0" : "";
-    if (stands) {
+    if (frames >= kLong_s * frame_rate_) {
       said_ = count;
       return collisions(abs(count)) + until;
     }
@@ -131,12 +278,86 @@ class CountWords {
   }
 
  private:
+  /// What may be said of the highest count, the longest text first.
+  static std::vector<std::string> ends_of(const ShownRun& run) {
+    const std::string count = collisions(run.at_end);
+    if (!run.is_over()) return {count};
+    if (run.is_endless()) return {"Infinitely many collisions"};
+    const auto pi = pi_of(run);
+    const std::string all =
+        count + ", after which there are no more" + (pi ? ": " + pi->words : "");
+    if (const auto proof = diagram_proof(run)) {
+      return {all + "\n" + proof->words, count + "\n" + proof->words, count + ": " + proof->number,
+              count};
+    }
+    if (pi) return {all, count + ": " + pi->number, count};
+    return {all, count};
+  }
+
   Integer least_;
   Integer most_;
-  bool is_endless_ = false;
-  std::string ending_;
+  Rational frame_rate_;
+  std::vector<std::string> ends_;
   Integer said_ = 0;  ///< the last count that was given exactly
 };
+
+Cues cues_of_run(const Part& part, const Rational& frame_rate) {
+  const FilmRun& run = part.runs().front();
+  const std::vector<Integer> counts = part.counts(run);
+  CountWords words(shown(run, part), std::ranges::min(counts), frame_rate);
+  const std::string title = own_title(run.scene());
+  const Rational title_frames = title.empty() ? Rational(0) : reading_frames(title, frame_rate);
+  Cues cues;
+  for (auto begin = counts.begin(); begin != counts.end();) {
+    const auto end =
+        std::find_if(begin, counts.end(), [&](const Integer& n) { return n != *begin; });
+    const std::int64_t frame = begin - counts.begin();
+    const std::string count = words.text(*begin, end - begin);
+    cues[frame] = frame < title_frames ? title + "\n" + count : count;
+    begin = end;
+  }
+  return cues;
+}
+
+/// Counts that are reached before the text before them is read are added to it.
+Cues cues_of_comparison(const Part& part, const Rational& frame_rate) {
+  Cues cues = {{0, names_of(part, "\n")}};
+  for (const FilmRun& run : part.runs()) {
+    const std::vector<Integer> counts = part.counts(run);
+    const ShownRun end = shown(run, part);
+    std::string& text = cues[std::ranges::find(counts, end.at_end) - counts.begin()];
+    if (!text.empty()) text += "\n";
+    text += fmt::format("{}: {}", name_of(run), last_count(end));
+  }
+  for (auto cue = std::next(cues.begin()); cue != cues.end(); ++cue) {
+    const auto& [frame, before] = *std::prev(cue);
+    if (cue->first - frame < reading_frames(before, frame_rate))
+      cue->second.insert(0, before + "\n");
+  }
+  return cues;
+}
+
+Cues card_cues(const Card& card, const Rational& frame_rate) {
+  Cues cues{{0, words_of(card.lines, "\n")}};
+  if (card.becomes.empty()) return cues;
+  const Rational changes = kCardChanges * card.length_s * frame_rate;
+  cues[ceil(changes).get_si()] = words_of(card.becomes, "\n");
+  return cues;
+}
+
+/// By their frames from the part's beginning on.
+Cues cues_of(const Part& part, const Rational& frame_rate) {
+  if (part.runs().empty()) return card_cues(part.segment().card(), frame_rate);
+  return part.runs().size() == 1 ? cues_of_run(part, frame_rate)
+                                 : cues_of_comparison(part, frame_rate);
+}
+
+/// The text as WebVTT has it.
+std::string escaped_lines(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos) return escaped(text);
+  return escaped(text.substr(0, end)) + "\n" + escaped_lines(text.substr(end + 1));
+}
 
 std::string time_text(std::int64_t frame, const Rational& frame_rate) {
   const std::int64_t ms = ceil(Rational(to_integer(frame)) * 1000 / frame_rate).get_si();
@@ -146,77 +367,54 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate) {
 
 }  // namespace
 
-std::int64_t frames_before_reversal(const Scene& scene, const Schedule& schedule) {
-  const std::int64_t frames = film_frames(schedule);
-  // A loop shows its first frame and the one at which it turns back once.
-  return scene.pacing.loop ? frames / 2 + 1 : frames;
+std::string title_of(const Film& film) {
+  const Part part = parts_of(film).front();
+  if (part.runs().empty()) return with_single_blanks(part.segment().card().lines.front());
+  const FilmRun& run = part.runs().front();
+  if (part.runs().size() > 1 || !own_title(run.scene()).empty()) return names_of(part, ", ");
+  const ShownRun end = shown(run, part);
+  // Of two blocks all are known, also those that the film does not show.
+  const Integer& count = run.log().pair() ? *end.total : end.at_end;
+  return fmt::format("{}: {}", bodies_name(run.log()), all_collisions(count, end.is_endless()));
 }
 
-VideoCount video_count(const Scene& scene, const Log& log, const Schedule& schedule) {
-  const std::int64_t last = frames_before_reversal(scene, schedule) - 1;
-  const Integer at_end = log.count_at(schedule.time_of(last));
-  const bool is_known = log.knows_last() || !log.has(at_end + 1);
-  return {at_end, is_known ? std::optional(log.last()) : std::nullopt, is_endless(log)};
-}
-
-std::string title_of(const Scene& scene, const Log& log, const VideoCount& count) {
-  if (std::string title = with_single_blanks(scene.show.title); !title.empty()) return title;
-  if (!log.pair()) return fmt::format("{}: {}", bodies_of(log.system()), collisions(count.at_end));
-  const TwoBlocks& system = log.pair()->blocks();
-  return fmt::format("Masses {} and {}: {}", short_text(system.blue.mass),
-                     short_text(system.red.mass), all_collisions(*count.total, count.is_endless));
-}
-
-std::string describe_video(const Scene& scene, const Log& log, const VideoCount& count) {
-  if (!log.pair()) return describe_bodies(log.system(), count);
-  const TwoBlocks& system = log.pair()->blocks();
-  const int base = scene.show.base;
-  const bool is_infinite = count.is_endless && count.at_end == count.total;
-  std::string written =
-      base == kUsualBase || is_infinite
-          ? ""
-          : fmt::format(" It is written in base {}: {}.", base, count_text(count.at_end, base));
-  const bool is_whole = count.at_end == count.total && !count.is_endless;
-  const PiWords pi = is_whole ? pi_words(log, *count.total, base) : PiWords{};
-  if (!pi.which.empty()) {
-    written +=
-        fmt::format(" The count has {}{}{}.", pi.which, pi.digits.empty() ? "" : ": ", pi.digits);
+std::string describe_film(const Film& film) {
+  const std::vector<Part> parts = parts_of(film);
+  if (film.scene() != nullptr) {
+    return describe_scene(shown(film.scene()->runs().front(), parts.front()));
   }
-  return fmt::format(
-      "Two blocks slide along a line without friction: the inner one, beside a wall on the {}, has "
-      "mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. {}, and a "
-      "counter reaches {}.{}",
-      log.pair()->blocks().side > 0 ? "left" : "right", short_text(system.blue.mass),
-      short_text(system.red.mass), motion_words(system.blue), motion_words(system.red),
-      collision_words(system), reached(count), written);
-}
-
-std::string captions(const Scene& scene, const Log& log, const Schedule& schedule) {
-  constexpr int kLong_s = 1;
-  const Rational& frame_rate = scene.view.frame_rate;
-  const std::int64_t frames = film_frames(schedule);
-  std::vector<Integer> shown;
-  for (std::int64_t frame = 0; frame < frames; ++frame) {
-    shown.push_back(log.count_at(schedule.time_of(frame)));
-  }
-  CountWords words(scene, log, shown);
-  std::vector<Cue> cues;
-  for (auto begin = shown.begin(); begin != shown.end();) {
-    const auto end =
-        std::find_if(begin, shown.end(), [&](const Integer& n) { return n != *begin; });
-    std::string text = words.text(*begin, end - begin >= kLong_s * frame_rate);
-    if (cues.empty() || cues.back().text != text) {
-      cues.push_back({begin - shown.begin(), std::move(text)});
+  std::string text = fmt::format("A film in {}.", counted(std::ssize(parts), "part"));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto runs = parts[i].runs();
+    text += fmt::format(" Part {}.", i + 1);
+    if (runs.empty()) {
+      const auto& [lines, length_s, becomes] = parts[i].segment().card();
+      text += fmt::format(" “{}”.", words_of(becomes.empty() ? lines : becomes, " / "));
     }
-    begin = end;
-  }
-  std::string text = "WEBVTT\n";
-  for (std::size_t i = 0; i < cues.size(); ++i) {
-    const std::int64_t end = i + 1 < cues.size() ? cues[i + 1].first_frame : frames;
-    text += fmt::format("\n{} --> {}\n{}\n", time_text(cues[i].first_frame, frame_rate),
-                        time_text(end, frame_rate), cues[i].text);
+    if (runs.size() > 1) text += fmt::format(" {} runs at once.", runs.size());
+    for (const FilmRun& run : runs) text += " " + describe_briefly(shown(run, parts[i]));
   }
   return text;
+}
+
+std::string captions(const Film& film) {
+  const Rational& frame_rate = film.view().frame_rate;
+  Cues cues;
+  for (const Part& part : parts_of(film)) {
+    for (auto& [frame, text] : cues_of(part, frame_rate)) {
+      if (cues.empty() || std::prev(cues.end())->second != text) {
+        cues[part.placed.first_seen() + frame] = text;
+      }
+    }
+  }
+  std::string vtt = "WEBVTT\n";
+  for (auto cue = cues.begin(); cue != cues.end(); ++cue) {
+    const auto next = std::next(cue);
+    vtt += fmt::format("\n{} --> {}\n{}\n", time_text(cue->first, frame_rate),
+                       time_text(next != cues.end() ? next->first : film.frame_count(), frame_rate),
+                       escaped_lines(cue->second));
+  }
+  return vtt;
 }
 
 }  // namespace piblocks

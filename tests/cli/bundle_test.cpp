@@ -55,7 +55,7 @@ TEST_F(BundleTest, HoldsTheVideoAndAllThatGoesWithIt) {
             "Two blocks slide along a line without friction: the inner one, beside a wall on the "
             "left, has mass 1, the outer one mass 10,000. At time 0 the inner one rests and the "
             "outer one slides towards the wall. All collisions are elastic, and a counter reaches "
-            "314 collisions, after which there are no more. The count has the first 3 digits of π: "
+            "314 collisions, after which there are no more. The count has the first 3 digits of π, "
             "3.14.\n");
   output_of(kRender + Arguments{"--base", "2", "--bundle", "binary"});
   EXPECT_TRUE(
@@ -78,6 +78,28 @@ TEST_F(BundleTest, ThePosterIsTheLastFrameOrTheOneAskedFor) {
   EXPECT_TRUE(contents("talk/poster.png") == contents("7.png"));
 }
 
+/// A run with a diagram ends at 1.5 s, the last run at 2.5 s.
+TEST_F(BundleTest, ThePosterOfAStoryboardIsOfItsLastDiagram) {
+  const auto poster_is_at = [this](const std::string& panels, const std::string& second) {
+    write("story.toml",
+          "view = { size = '640x360', fps = 2 }\n[[part]]\ndigits = 1\ntime.to = 1.5\n" + panels +
+              "[[part]]\ndigits = 2\ntime.to = 1\n[[part]]\nfade = 0.5\n" + "card = 'end'\n");
+    output_of({"render", "story.toml", "--quiet", "--bundle", "talk", "-o", "pi.mp4"});
+    output_of({"still", "story.toml", "--at", second, "-o", "expected.png"});
+    return contents("talk/poster.png") == contents("expected.png");
+  };
+  EXPECT_TRUE(poster_is_at("show.panels = ['velocity']\n", "1"));
+  EXPECT_FALSE(poster_is_at("", "1"));
+  EXPECT_EQ(contents("talk/captions.vtt"),
+            "WEBVTT\n\n00:00:00.000 --> 00:00:02.500\nNo collision yet\n\n00:00:02.500 --> "
+            "00:00:04.000\nend\n");
+  EXPECT_TRUE(contents("talk/alt.txt").ends_with(" Part 3. “end”.\n"));
+  output_of(
+      {"render", "story.toml", "--quiet", "--poster", "1", "--bundle", "talk", "-o", "pi.mp4"});
+  output_of({"still", "story.toml", "--at", "1", "-o", "expected.png"});
+  EXPECT_TRUE(contents("talk/poster.png") == contents("expected.png"));
+}
+
 /// At each cue's first frame, and not before, so many collisions have happened.
 TEST_F(BundleTest, CaptionsSayWhatTheFramesCount) {
   output_of(kRender + Arguments{"--digits", "5", "--bundle", "talk"});
@@ -86,8 +108,7 @@ TEST_F(BundleTest, CaptionsSayWhatTheFramesCount) {
   EXPECT_EQ(cues.front().begin_s, 0);
   EXPECT_EQ(cues.front().text, "No collision yet");
   EXPECT_EQ(cues.at(1).text, "1 collision or more");
-  EXPECT_EQ(cues.back().text,
-            "31,415 collisions, after which there are no more: the first 5 digits of π, 3.1415");
+  EXPECT_EQ(cues.back().text, "31,415 collisions: π = 3.1415…");
   for (std::size_t i = 1; i < cues.size(); ++i) {
     EXPECT_EQ(cues[i - 1].end_s, cues[i].begin_s);
     EXPECT_GT(cues[i].begin_s, cues[i - 1].begin_s);

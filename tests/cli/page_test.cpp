@@ -50,6 +50,18 @@ TEST_F(PageTest, IsNotJoined) {
             "piblocks: join: 'a.html' cannot be made of parts; render the page whole\n");
 }
 
+TEST_F(PageTest, HoldsAStoryboard) {
+  write("story.toml",
+        "view = { size = '64x36', fps = 10 }\n[[part]]\ncard = 'Two <blocks>'\n"
+        "seconds = 1\n[[part]]\ndigits = 1\ntime.to = 1\ntime.loop = true\n");
+  output_of({"render", "story.toml", "--quiet", "-o", "a.html"});
+  const std::string page = contents("a.html");
+  EXPECT_TRUE(contains(page, "<title>Two &lt;blocks&gt;</title>"));
+  EXPECT_TRUE(contains(page, "data-rate=\"10/1\" data-frames=\"28\" controls playsinline"));
+  EXPECT_TRUE(
+      contains(page, "<p id=\"description\">A film in 2 parts. Part 1. “Two &lt;blocks&gt;”"));
+}
+
 TEST_F(PageTest, TextsAreEscaped) {
   output_of({"render", "--quiet", "--to", "1", "--fps", "10", "--title",
              "</title><script>alert(1)</script>", "-o", "a.html"});

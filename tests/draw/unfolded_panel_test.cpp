@@ -234,15 +234,15 @@ TEST(Unfolded, TheTitleSaysInTheEndHowManyMirrorsAndWhy) {
     EXPECT_NE(text.find(what), std::string::npos) << what << " is not in " << text;
   };
   says(2, {}, "31 equal angles ");
-  says(2, {}, " fit into half a turn, which is π: π / ");
-  says(2, {}, " ≈ 10 π = 31.4…");
+  says(2, {}, " fit into half a turn, which is π: π/");
+  says(2, {}, " ≈ 10π = 31.4…");
   says(3, {}, "314 equal angles ");
-  says(3, {}, " ≈ 100 π = 314.1…");
+  says(3, {}, " ≈ 100π = 314.1…");
   says(5, {}, "31,415 equal angles ");
   says(1, {{"red.mass", "7"}}, " = 8.6…");      // π/arctan(1/√7) = 8.69
   says(1, {{"red.mass", "1000"}}, " = 99.3…");  // π/arctan(1/√1000) = 99.379
   says(2, {{"base", "2"}}, "110 equal angles ");
-  EXPECT_EQ(words_at(2, {{"base", "2"}}, true).find("≈ 10 π"), std::string::npos);
+  EXPECT_EQ(words_at(2, {{"base", "2"}}, true).find("≈ 10π"), std::string::npos);
   // Here π/θ is 4, 6 and 3, and the line is parallel to the last mirror.
   for (const auto& [mass, count] : {std::pair("1", "3"), {"3", "5"}, {"1/3", "2"}}) {
     const std::string text = words_at(1, {{"red.mass", mass}}, true);

@@ -320,9 +320,9 @@ TEST(VelocityPanel, SaysInTheEndHowManyArcsAreInTheCircle) {
     const VelocityPictures pictures(settings);
     return Shown(pictures.after(is_end ? pictures.log->last() : Integer(1))).words();
   };
-  for (const auto& [ratio, what] : {std::pair("100", " ≈ 10 π = 31.4…"),
-                                    {"10000", " ≈ 100 π = 314.1…"},
-                                    {"2500", " ≈ 50 π = 157.0…"},
+  for (const auto& [ratio, what] : {std::pair("100", " ≈ 10π = 31.4…"),
+                                    {"10000", " ≈ 100π = 314.1…"},
+                                    {"2500", " ≈ 50π = 157.0…"},
                                     {"7", " = 8.6…"}}) {
     EXPECT_NE(words_after({{"mass-ratio", ratio}}, true).find(what), std::string::npos) << ratio;
     EXPECT_EQ(words_after({{"mass-ratio", ratio}}, false).find(what), std::string::npos) << ratio;

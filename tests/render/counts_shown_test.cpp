@@ -45,6 +45,9 @@ TwoBlocks system_of_ratio(const Rational& ratio) {
   return system;
 }
 
+/// For its texts alone.
+Film unpainted(const Script& script) { return Film(script, {FilmUse::audio_only}); }
+
 /// An instant named by its anchor, and the count that is true of it.
 struct Anchored {
   Instant instant;
@@ -107,11 +110,11 @@ void expect_in_films(const Scene& scene, const Anchored& at) {
 }
 
 void expect_in_texts(const Scene& scene, const Anchored& at) {
-  const Scene film = until(at.instant, scene);
-  const auto log = log_of(film);
-  const Schedule schedule = make_schedule(film, *log);
-  EXPECT_EQ(video_count(film, *log, schedule).at_end, at.count) << "alt text";
-  std::string text = captions(film, *log, schedule);
+  const Film film = unpainted(until(at.instant, scene));
+  std::string alt = describe_film(film);
+  std::erase(alt, ',');
+  EXPECT_TRUE(contains(alt, "a counter reaches " + at.count.get_str() + " ")) << alt;
+  std::string text = captions(film);
   std::erase(text, ',');
   EXPECT_TRUE(contains(text, "\n" + at.count.get_str() + " collision")) << "captions";
 }
@@ -170,72 +173,99 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
   Scene film = scene;
   film.time.from = Rational(-20);
   film.time.to = Rational(1);
-  const auto log = make_pair_log(system);
-  const std::string text = captions(film, *log, make_schedule(film, *log));
+  const std::string text = captions(unpainted(film));
   EXPECT_TRUE(contains(text, "100 collisions or more to go until time 0"));
   // Count 0 is reached before time 0, and kept after it.
   EXPECT_TRUE(text.ends_with("\nNo collision between now and time 0\n")) << text;
 }
 
 TEST(CountsShown, AreRightInWords) {
-  Scene scene = scene_of(article_blocks(3));
-  const auto log = log_of(scene);
-  const auto sentence = [&](const Integer& at_end, const Integer& total) {
-    const std::string text = describe_video(scene, *log, {at_end, total});
+  const auto sentence = [](const TwoBlocks& system, const Instant& to, int base = 10) {
+    Scene scene = scene_of(system);
+    scene.show.base = base;
+    scene.time.from = Rational(to.is_time() && to.offset < 0 ? -20 : 0);
+    if (to.anchor == Instant::Anchor::collision) scene.time.from = Rational(-20);
+    scene.time.to = to;
+    const std::string text = describe_film(unpainted(scene));
     return text.substr(text.find("a counter"));
   };
+  const TwoBlocks article = article_blocks(3);
+  TwoBlocks parting = article;
+  parting.red.velocity = 1;
+  TwoBlocks bounced = parting;  // blue follows red from the wall, and never reaches it
+  bounced.blue.velocity = Rational(-1, 2);
   EXPECT_EQ(
-      sentence(314, 314),
+      sentence(article, Instant::last()),
       "a counter reaches 314 collisions, after which there are no more. The count has the first "
-      "3 digits of π: 3.14.");
-  EXPECT_EQ(sentence(1, 1), "a counter reaches 1 collision, after which there are no more.");
-  EXPECT_EQ(sentence(7, 1000), "a counter reaches 7 of 1,000 collisions.");
-  EXPECT_EQ(sentence(0, 314), "a counter reaches 0 of 314 collisions.");
-  EXPECT_EQ(sentence(0, 0), "a counter reaches 0: there are no collisions from time 0 on.");
-  EXPECT_EQ(sentence(-1000, 0),
-            "a counter reaches -1,000: 1,000 collisions are to go until time 0.");
-  scene.show.base = 16;
-  EXPECT_EQ(
-      sentence(314, 314),
-      "a counter reaches 314 collisions, after which there are no more. It is written in base 16: "
-      "13a.");
-  scene.show.base = 10;
-  EXPECT_EQ(sentence(-1, 314), "a counter reaches -1: 1 collision is to go until time 0.");
+      "3 digits of π, 3.14.");
+  EXPECT_EQ(sentence(bounced, Instant::last()),
+            "a counter reaches 1 collision, after which there are no more.");
+  EXPECT_EQ(sentence(article, Instant::collision(7)), "a counter reaches 7 of 314 collisions.");
+  EXPECT_EQ(sentence(article, Rational(1)), "a counter reaches 0 of 314 collisions.");
+  EXPECT_EQ(sentence(parting, Rational(1)),
+            "a counter reaches 0: there are no collisions from time 0 on.");
+  parting.red.mass = 100'000'000;
+  EXPECT_EQ(sentence(parting, Rational(-19)),
+            "a counter reaches -31,415: 31,415 collisions are to go until time 0.");
+  EXPECT_EQ(sentence(article, Instant::last(), 16),
+            "a counter reaches 314 collisions, after which there are no more. It is written in "
+            "base 16: 13a.");
+  EXPECT_EQ(sentence(parting, Instant::collision(-1)),
+            "a counter reaches -1: 1 collision is to go until time 0.");
 }
 
 /// The digits of pi, where the count is made of them.
 TEST(CountsShown, OfPiAreSaidInTexts) {
-  const auto texts = [](const TwoBlocks& system, int base) {
+  const auto film = [](const TwoBlocks& system, int base, int hold_end_s = 9) {
     Scene scene = scene_of(system);
     scene.show.base = base;
-    const auto run = log_of(scene);
-    const Integer total = run->last();
-    return std::pair(captions(scene, *run, make_schedule(scene, *run)),
-                     describe_video(scene, *run, {total, total}));
+    scene.time.to = Instant::last();
+    scene.pacing.hold_end_s = hold_end_s;
+    return unpainted(scene);
   };
   for (const auto& [base, digits, words, pi] :
        {std::tuple{10, 1, "the first digit of π", "3"},
         {10, 5, "the first 5 digits of π", "3.1415"},
         {2, 5, "the first 6 digits of π in base 2", "11.0010"},
         {16, 3, "the first 3 digits of π in base 16", "3.24"}}) {
-    const auto [said, alt] = texts(article_blocks(digits, base), base);
+    const Film held = film(article_blocks(digits, base), base);
+    const std::string said = captions(held);
     EXPECT_TRUE(said.ends_with(fmt::format(": {}, {}\n", words, pi))) << said;
-    EXPECT_TRUE(alt.ends_with(fmt::format(" The count has {}: {}.", words, pi))) << alt;
+    const std::string alt = describe_film(held);
+    EXPECT_TRUE(alt.ends_with(fmt::format(" The count has {}, {}.", words, pi))) << alt;
   }
-  EXPECT_TRUE(texts(article_blocks(100), 10).first.ends_with("the first 100 digits of π\n"));
+  EXPECT_TRUE(captions(film(article_blocks(100), 10, 12)).ends_with("the first 100 digits of π\n"));
   TwoBlocks thrown = article_blocks(3);
   thrown.blue.velocity = Rational(-1, 3);
   TwoBlocks lossy = article_blocks(3);
   lossy.blocks_restitution = Rational(9999, 10000);
   for (const auto& [system, base] :
        {std::pair{system_of_ratio(50), 10}, {article_blocks(3), 2}, {thrown, 10}, {lossy, 10}}) {
-    const auto [said, alt] = texts(system, base);
-    EXPECT_FALSE(contains(said + alt, "π")) << said << alt;
+    const Film none = film(system, base);
+    EXPECT_FALSE(contains(captions(none) + describe_film(none), "π"));
   }
   Scene cut = scene_of(article_blocks(3));
   cut.time.to = Rational(7, 2);
-  const auto run = log_of(cut);
-  EXPECT_FALSE(contains(captions(cut, *run, make_schedule(cut, *run)), "π"));
+  EXPECT_FALSE(contains(captions(unpainted(cut)), "π"));
+}
+
+/// 20 characters a second: 76 of them take 3.8 s, 25 take 1.25 s.
+TEST(CountsShown, TheLastComesWithWhatThereIsTimeToRead) {
+  const auto last_caption = [](const Rational& hold_end_s) {
+    Scene scene = scene_of(article_blocks(3));
+    scene.view.frame_rate = 20;
+    scene.time.to = Instant::last();
+    scene.pacing.hold_end_s = hold_end_s;
+    const std::string text = captions(unpainted(scene));
+    const std::size_t end = text.size() - 1;
+    return text.substr(text.rfind('\n', end - 1) + 1, end - text.rfind('\n', end - 1) - 1);
+  };
+  const std::string all =
+      "314 collisions, after which there are no more: the first 3 digits of π, 3.14";
+  EXPECT_EQ(last_caption(Rational(19, 5)), all);
+  EXPECT_EQ(last_caption(Rational(18, 5)), "314 collisions: π = 3.14…");
+  EXPECT_EQ(last_caption(Rational(13, 10)), "314 collisions: π = 3.14…");
+  EXPECT_EQ(last_caption(Rational(11, 10)), "314 collisions");
 }
 
 /// "100 or more" would mislead beside a picture that says 313 for seconds.
@@ -250,7 +280,7 @@ TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
     if (random.integer(0, 1) == 0) scene.pacing.freezes = {{Instant::collision(2), 2}};
     const auto run = log_of(scene);
     const Schedule schedule = make_schedule(scene, *run);
-    std::string text = captions(scene, *run, schedule);
+    std::string text = captions(unpainted(scene));
     std::erase(text, ',');
     std::map<std::int64_t, std::string> cues;  // by their first frame
     const std::regex cue("00:([0-9]+):([0-9.]+) --> [^\n]*\n([^\n]*)");
@@ -289,17 +319,17 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(7))), "7");
     const Integer before = log->last() - 1;
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
-    const std::string text = describe_video(scene, *log, {log->last(), log->last(), true});
+    scene.time.to = Rational(9);
+    const Film film = unpainted(scene);
+    const std::string text = describe_film(film);
     EXPECT_FALSE(contains(text, "elastic"));
     EXPECT_TRUE(contains(text, "The coefficient of restitution is 0.5 between the blocks"));
     EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both"));
-    EXPECT_TRUE(contains(title_of(scene, *log, {7, log->last(), true}), "infinitely many"));
-    scene.show.base = 2;
-    EXPECT_FALSE(contains(describe_video(scene, *log, {log->last(), log->last(), true}), "base"));
-    scene.show.base = 10;
-    scene.time.to = Rational(9);
-    const std::string said = captions(scene, *log, make_schedule(scene, *log));
+    EXPECT_TRUE(contains(title_of(film), "infinitely many"));
+    const std::string said = captions(film);
     EXPECT_TRUE(said.ends_with("\nInfinitely many collisions\n")) << said;
+    scene.show.base = 2;
+    EXPECT_FALSE(contains(describe_film(unpainted(scene)), "base"));
   }
 }
 

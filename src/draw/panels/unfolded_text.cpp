@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "draw/number_text.hpp"
-#include "draw/panels/half_turn.hpp"
 #include "draw/panels/trajectory.hpp"
+#include "scene/counted_pi.hpp"
 
 namespace piblocks {
 namespace {
@@ -23,12 +23,15 @@ Integer crossings_of(const DrawingContext& context) {
 /// The wedge angle in radians: as a unit fraction where that is good to three digits.
 std::string angle_text(const TwoBlocks& system) {
   const GapWedge wedge(system);
-  if (const auto root = whole_root(system); root && *root >= 10) {
-    const std::string digits = root->get_str();
+  const Rational ratio = system.red.mass / system.blue.mass;
+  const Integer root = sqrt(Integer(ratio.get_num()));
+  const bool is_unit_fraction = ratio >= 100 && Rational(root * root) == ratio;
+  if (is_unit_fraction) {
+    const std::string digits = root.get_str();
     const auto zeros = static_cast<long>(digits.size()) - 1;
     const bool is_power = digits.front() == '1' && digits.find_first_not_of('0', 1) > digits.size();
     if (is_power && zeros > 2) return power_text(-zeros);
-    if (zeros <= 4) return "1/" + short_text(Rational(*root));
+    if (zeros <= 4) return "1/" + short_text(Rational(root));
   }
   const Magnitude theta = written_with(2, wedge.theta_magnitude());
   if (theta.exponent >= -4) {
@@ -55,18 +58,25 @@ PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool un
     crossed.push_back(set.text("A straight path crosses " + some + mirrors));
   }
   crossed.push_back(set.text("A straight path"));
-  if (!fits_half_turn(context.two_blocks().blocks())) return {path, path, crossed};
-  std::vector<Formula> filled;
-  for (const std::string& some : {number, brief_number}) {
-    const Formula angles =
-        set.text(some + " equal angles ") + set.italic("θ") + set.text(" fit into half a turn");
-    filled.push_back(angles + set.text(", which is π: ") + half_turn_ratio(context));
-    filled.push_back(angles + set.text(": ") + half_turn_ratio(context));
-    filled.push_back(angles);
-  }
-  filled.push_back(half_turn_ratio(context));
-  filled.push_back(set.text("A straight path"));
-  return {path, path, filled};
+  const std::optional<Formula> ratio = half_turn_ratio(context);
+  if (!ratio) return {path, path, crossed};
+  const Formula angles =
+      set.text(number + " equal angles ") + set.italic("θ") + set.text(" fit into half a turn");
+  return {path,
+          path,
+          {angles + set.text(", which is π: ") + *ratio, angles + set.text(": ") + *ratio, angles,
+           *ratio, set.text("A straight path")}};
+}
+
+std::optional<Formula> half_turn_ratio(const DrawingContext& context) {
+  std::string text = half_turn_text(context.two_blocks().blocks());
+  if (text.empty()) return std::nullopt;
+  if (context.scene.show.base != kUsualBase) text = "π/θ";
+  const FormulaSetter set = context.setter();
+  constexpr std::string_view kAngle = "θ";
+  const std::size_t angle = text.find(kAngle);
+  return set.text(text.substr(0, angle)) + set.italic(kAngle) +
+         set.text(text.substr(angle + kAngle.size()));
 }
 
 Formula angle_note(const DrawingContext& context) {

@@ -15,6 +15,9 @@ namespace piblocks {
 /// @param unfolds  whether mirrors appear one by one
 PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool unfolds);
 
+/// How many wedge angles fit into half a turn, as half_turn_text(); without digits in other bases.
+std::optional<Formula> half_turn_ratio(const DrawingContext& context);
+
 /// The wedge angle, as an expression and a number.
 Formula angle_note(const DrawingContext& context);
 /// How many of the mirrors are drawn; nothing if all are.

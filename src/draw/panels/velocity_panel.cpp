@@ -8,8 +8,8 @@
 #include "core/rounded.hpp"
 #include "core/smooth_step.hpp"
 #include "draw/look.hpp"
-#include "draw/panels/half_turn.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/panels/unfolded_text.hpp"
 #include "draw/panels/velocity_figure.hpp"
 #include "draw/panels/velocity_points.hpp"
 
@@ -51,9 +51,9 @@ PhasedTitle::Sentences sentences(const DrawingContext& context, bool has_chords)
     all.during.insert(all.during.begin(), brief + set.text(", too small to see"));
   }
   all.after = all.during;
-  if (!fits_half_turn(context.two_blocks().blocks())) return all;
-  const Formula ratio = half_turn_ratio(context);
-  all.after.insert(all.after.begin(), {set.text("2π ÷ ") + arc + set.text(" = ") + ratio, ratio});
+  const std::optional<Formula> ratio = half_turn_ratio(context);
+  if (!ratio) return all;
+  all.after.insert(all.after.begin(), {set.text("2π ÷ ") + arc + set.text(" = ") + *ratio, *ratio});
   return all;
 }
 
