@@ -14,8 +14,8 @@ TEST_F(BodiesCli, PagesAndBundlesSayWhatMovesAndHowOftenItMeets) {
   const std::string page = contents("a.html");
   EXPECT_TRUE(contains(page, "3 blocks move along a line without friction, with 2 walls. All"));
   EXPECT_FALSE(contains(page, "after which there are no more"));
-  output_of({"render", "meeting.toml", "--size", "64x64", "--fps", "5", "--quiet", "-o", "a.mp4",
-             "--bundle", "talk"});
+  output_of({"render", "meeting.toml", "--size", "64x64", "--fps", "5", "--quiet", "--hold-end",
+             "1", "-o", "a.mp4", "--bundle", "talk"});
   const std::string captions = contents("talk/captions.vtt");
   EXPECT_TRUE(captions.starts_with("WEBVTT")) << captions;
   EXPECT_TRUE(contains(captions, "after which there are no more"));

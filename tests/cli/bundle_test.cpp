@@ -139,11 +139,8 @@ TEST_F(BundleTest, CaptionsOfALoopGoBack) {
   output_of(kRender + Arguments{"--digits", "1", "--loop", "--bundle", "talk"});
   std::vector<std::string> texts;
   for (const Cue& cue : cues_of(contents("talk/captions.vtt"))) texts.push_back(cue.text);
-  const Names expected{
-      "No collision yet", "1 collision",
-      "2 collisions",     "3 collisions, after which there are no more: the first digit of π, 3",
-      "2 collisions",     "1 collision",
-      "No collision yet"};
+  const Names expected{"No collision yet", "1 collision", "2 collisions",    "3 collisions: π = 3…",
+                       "2 collisions",     "1 collision", "No collision yet"};
   EXPECT_EQ(texts, expected);
 }
 

@@ -141,9 +141,7 @@ def _rendered(scene: Scene, name: str) -> bytes:
 
 
 def _film_html(shown: Scene) -> str:
-    """The film in the page's player; a storyboard as a video."""
-    if shown.is_storyboard:
-        return _media(_rendered(shown, "film.mp4"), "video/mp4")
+    """The film in the page's player."""
     return _frame_of_page(_rendered(shown, "film.html").decode(), *shown.size)
 
 
