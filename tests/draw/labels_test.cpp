@@ -120,9 +120,9 @@ TEST(Labels, MassesOfTheThemeAreThereUnlessOneHasNoPlace) {
     }
     return texts;
   };
-  const std::vector<std::string> both = {"10,000 kg", "1 kg"};
-  EXPECT_EQ(masses({}), both);
-  EXPECT_EQ(masses({{"view.size", "1080x1920"}}), both);
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(masses({}), (Texts{"10,000 kg", "1 kg"}));
+  EXPECT_EQ(masses({{"view.size", "1080x1920"}}), (Texts{"10,000", "1"})) << "no room for a unit";
   EXPECT_TRUE(masses({{"view.theme", "article"}}).empty());
   EXPECT_TRUE(masses({{"view.theme", "dark"}}).empty());
   EXPECT_TRUE(masses({{"show.overlays", "none"}}).empty());

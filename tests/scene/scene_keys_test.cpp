@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 
+#include "scene/scene_toml.hpp"
 #include "support/contains.hpp"
 
 namespace piblocks {
