@@ -19,7 +19,7 @@
 namespace piblocks {
 
 enum class Theme {
-  article,        ///< on white, as in the article
+  article,        ///< on white, the article's own picture
   lecture,        ///< for a lecture hall: on near-black, in the colours of the diagrams
   lecture_light,  ///< the same on near-white
   chalkboard,     ///< chalk on dark green
@@ -85,7 +85,8 @@ Loupe parse_loupe(std::string_view text);
 std::string exact_text(const Loupe& loupe);
 
 struct Show {
-  std::vector<Overlay> overlays = {};
+  /// Nothing: those of the theme; see overlays_of().
+  std::optional<std::vector<Overlay>> overlays = {};
   std::vector<Panel> panels = {};  ///< in this order
   std::string title = {};          ///< one line of UTF-8 above all
   std::string caption = {};        ///< one line of UTF-8 below all
@@ -95,6 +96,7 @@ struct Show {
   /// Nothing: on in the lecture themes, off in the others.
   std::optional<Loupe> loupe = {};
 
+  /// Whether the scene lists it.
   bool has(Overlay overlay) const noexcept;
 };
 
@@ -132,7 +134,7 @@ struct View {
   /// Type, lines and margins are fractions of this length. 0 stands for the shorter side of the
   /// frame. In a row of a split screen it is the shorter side of the whole film.
   int short_side_px = 0;
-  Theme theme = Theme::article;
+  Theme theme = Theme::lecture_light;
   Background background = Background::opaque;
 };
 
@@ -237,6 +239,11 @@ struct Scene {
   Show show = {};
   Golden golden = {};
 };
+
+/// The overlays that a scene lists. Without a list, the lecture themes show the masses of up to
+/// twelve blocks on a line, where all of them have room. All themes but the article's then also
+/// show the digits of pi, of a scene that counts them.
+std::vector<Overlay> overlays_of(const Scene& scene);
 
 /// Red's width where widths tell masses: blue's, and an eighth more for every factor of a hundred
 /// in mass, from half of blue's to half as wide again, so that any ratio can be drawn.

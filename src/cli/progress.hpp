@@ -27,6 +27,8 @@ class ProgressReport {
   void update(const Progress& progress);
   /// Prints what has been written. @param aftermath  as Rendered::aftermath
   void finish(const std::string& aftermath);
+  /// Whether somebody sees the bar.
+  bool is_seen() const { return on_terminal_ && !quiet_; }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -24,8 +24,8 @@ bool is_standard_input(const std::string& scene) { return scene == "-"; }
 std::string text_of_standard_input() {
   std::string text = read_toml_text(std::cin, kStandardInput);
   if (!text.empty()) return text;
-  // The article's scene would hide that the program before the pipe has failed.
-  throw SceneError("scene: standard input is empty; leave '-' out for the article's scene");
+  // The default scene would hide that the program before the pipe has failed.
+  throw SceneError("scene: standard input is empty; leave '-' out for the default scene");
 }
 
 /// A list of names with line breaks after commas.
@@ -45,7 +45,7 @@ std::string in_lines(std::string names) {
 SceneOptions::SceneOptions(Command command) : command_(std::move(command)) {
   command_.add_optional_argument(kScene,
                                  "Scene file, a name that 'piblocks scenes' lists, or - (standard\n"
-                                 "input); without it, the article's scene: three digits");
+                                 "input); without it, two blocks that count three digits");
   add_key("digits", "--digits", "D", "Count this many digits of pi: m_red = 100^(D-1) m_blue");
   add_key("base", "--base", "B",
           "Write counts in this base, 2 to 36 (default 10); then D digits\n"
@@ -125,9 +125,11 @@ void SceneOptions::add_sound() {
 }
 
 void SceneOptions::add_show() {
-  add_key("view.theme", "--theme", "NAME", "Colours:\n" + theme_names());
+  add_key("view.theme", "--theme", "NAME",
+          "Colours and layout (default lecture-light):\n" + theme_names());
   add_text("show.overlays", "--show", "NAMES",
-           "What is drawn over the scene, with commas:\n" + overlay_names());
+           "What is drawn over the scene, with commas, or none:\n" + overlay_names() +
+               "\n(default: digits of pi, and in the lecture themes masses)");
   add_text("show.panels", "--panels", "NAMES",
            "Diagrams below it, with commas:\n" + in_lines(panel_names()));
   add_text("show.title", "--title", "TEXT", "A title line");
@@ -147,6 +149,8 @@ void SceneOptions::refuse_both(const std::string& first, const std::string& seco
   if (!command_.is_given(first) || !command_.is_given(second)) return;
   throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
 }
+
+bool SceneOptions::has_scene() const { return command_.is_given(kScene); }
 
 Scene SceneOptions::scene() const {
   const Script made = script();

@@ -35,6 +35,8 @@ class SceneOptions {
   void add_timing();
   void add_sound();
 
+  /// Whether a scene is named: a file, a shipped one, or standard input.
+  bool has_scene() const;
   /// @throws SceneError, UsageError; also if the file is a storyboard.
   Scene scene() const;
   /// @param defaults  win over the scene file, but not over options.

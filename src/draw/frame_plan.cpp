@@ -305,7 +305,7 @@ class FramePlanner {
   double stage_height(double room_px) {
     double height = show_.panels.size() == 1 ? kStripStage : kPlainStage;
     if (show_.has(Overlay::velocities)) height += kArrowRoom;
-    if (show_.has(Overlay::masses)) height += kMassRoom / 2;
+    if (has_masses(context_.scene)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;
     height *= sizes_.short_side;
     if (view_.theme == Theme::article) {

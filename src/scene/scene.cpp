@@ -134,7 +134,7 @@ void check_loupe(const Loupe& loupe, SceneProblems& problems) {
 
 void check_show(const Show& show, SceneProblems& problems) {
   const auto name_of = [](auto value) { return exact_text(value); };
-  check_each_once("show.overlays", show.overlays, name_of, problems);
+  if (show.overlays) check_each_once("show.overlays", *show.overlays, name_of, problems);
   check_each_once("show.panels", show.panels, name_of, problems);
   problems.require(show.base >= kMinBase && show.base <= kMaxBase, "base",
                    "= {}: must be from {} to {}", show.base, kMinBase, kMaxBase);
@@ -222,6 +222,15 @@ void check_line(const char* key, std::string_view text, SceneProblems& problems)
   if (!is_short) return;
   problems.require(is_utf8(text), key, "is not valid UTF-8; write it in that encoding");
   problems.require(!has_control_characters(text), key, "must be one line of text");
+}
+
+std::vector<Overlay> overlays_of(const Scene& scene) {
+  if (scene.show.overlays) return *scene.show.overlays;
+  constexpr std::size_t kMostMasses = 12;
+  const System& system = scene.system;
+  const bool has_masses = is_lecture(scene.view.theme) && system.dimensions == 1 &&
+                          system.bodies.size() <= kMostMasses;
+  return has_masses ? std::vector{Overlay::masses} : std::vector<Overlay>();
 }
 
 Rational width_by_mass(const Body& blue, const Body& red) {

@@ -64,7 +64,9 @@ void read(Values& target, const Values& values) { target = list_of(values); }
 void read(std::optional<FrameSize>& target, const Values& values) { target = parse_size(values); }
 void read(std::optional<Loupe>& target, const Values& v) { target = parse_loupe(single(v)); }
 void read(std::vector<Freeze>& list, const Values& v) { list = parse_list(v, parse_freeze); }
-void read(std::vector<Overlay>& list, const Values& v) { list = parse_list(v, parse_overlay); }
+void read(std::optional<std::vector<Overlay>>& list, const Values& values) {
+  list = values == Values{"none"} ? std::vector<Overlay>() : parse_list(values, parse_overlay);
+}
 void read(std::vector<Panel>& list, const Values& v) { list = parse_list(v, parse_panel); }
 void read(Range& target, const Values& values) {
   if (values.size() != 2) throw UsageError("must be two numbers, as [-1, 12]");
@@ -94,14 +96,18 @@ Values texts_of(const FrameSize& value) {
   return {fmt::format("{}x{}", value.width_px, value.height_px)};
 }
 template <typename Value>
-Values texts_of(const std::optional<Value>& value) {
-  return value ? texts_of(*value) : Values();
-}
-template <typename Value>
 Values texts_of(const std::vector<Value>& list) {
   Values texts;
   for (const Value& value : list) texts.push_back(exact_text(value));
   return texts;
+}
+template <typename Value>
+Values texts_of(const std::optional<Value>& value) {
+  return value ? texts_of(*value) : Values();
+}
+/// A list without overlays is not the theme's.
+Values texts_of(const std::optional<std::vector<Overlay>>& list) {
+  return list && list->empty() ? Values{"none"} : texts_of<std::vector<Overlay>>(list);
 }
 
 /// A key for one member of a scene, given by pointers to members.

@@ -96,7 +96,7 @@ std::array<std::string_view, N> split(std::string_view text, const char* expecte
 }  // namespace
 
 bool Show::has(Overlay overlay) const noexcept {
-  return std::ranges::find(overlays, overlay) != overlays.end();
+  return overlays && std::ranges::count(*overlays, overlay) > 0;
 }
 
 Theme parse_theme(std::string_view name) { return parse(kThemes, name); }

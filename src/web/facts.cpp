@@ -73,8 +73,10 @@ std::string bodies_json(const Scene& scene) {
                      box_json(system, "lower", "upper", 1), json_array(rows));
 }
 
+/// What a scene's keys are, and the overlays that it shows.
 /// @param of_film  whether to leave out keys that are not for a whole film.
-std::string keys_json(const Scene& scene, bool of_film) {
+std::string keys_json(Scene scene, bool of_film) {
+  scene.show.overlays = overlays_of(scene);
   std::vector<std::string> keys;
   for (const SceneKey& key : scene_keys()) {
     if (of_film && !is_film_key(key.name)) continue;

@@ -12,7 +12,7 @@ class GoldenTest : public CliFixture {
  protected:
   void SetUp() override {
     write("scene.toml",
-          "[red]\nmass = 100\n[time]\nto = 7\n[view]\nfps = 4\n[golden]\nsize = [160, 90]\n"
+          "[red]\nmass = 100\n[time]\nto = 7\n[view]\nfps = 4\ntheme = 'article'\n[golden]\nsize = [160, 90]\n"
           "frames = [0, \"last\", \"#7\", \"7/2\"]\n");
   }
   CommandResult golden(const char* action, const Arguments& more = {}) const {
@@ -68,11 +68,17 @@ TEST_F(GoldenTest, KeepsOtherPicturesWhereTheCommandLineSaysSo) {
 TEST_F(GoldenTest, FindsWhatHasChangedAndChangesNothing) {
   golden("record");
   const std::string hashes = contents("refs/scene.framehash");
+  const Arguments last{"still", "scene.toml", "--size", "160x90", "--at", "last", "-o"};
+  output_of(last + Arguments{"before.png"});
   make_red_heavier();
+  output_of(last + Arguments{"after.png"});
   const CommandResult result = golden("check", {"--diff", "d"});
   expect(result, 1, "scene: different: 16 of 28 frames differ, 3 of 4 pictures differ");
   const Names printed = lines(result.out);
-  EXPECT_TRUE(printed.at(0).starts_with("scene-last.png: 394 pixels differ")) << printed.at(0);
+  const std::string compared = lines(piblocks({"compare", "before.png", "after.png"}).out).at(0);
+  EXPECT_TRUE(contains(compared, " pixels differ, largest delta ")) << compared;
+  EXPECT_EQ("before.png and after" + printed.at(0).substr(std::string("scene-last").size()),
+            compared);
   EXPECT_EQ(printed.at(3), "scene.framehash: frames 12 to 27 differ");
   EXPECT_EQ(printed.at(4), "scene: 'd/scene' has expected, difference and actual of 3 pictures");
   EXPECT_EQ(printed.at(5),

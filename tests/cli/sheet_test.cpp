@@ -69,18 +69,18 @@ TEST_F(SheetTextTest, SpacesPicturesByTime) {
 }
 
 TEST_F(SheetTextTest, SpacesPicturesByCountAroundTheTurn) {
-  const Arguments counts = {"--digits", "2", "--frames", "4"};
+  const Arguments counts = {"article", "--digits", "2", "--frames", "4"};
   const std::string text = text_of(counts);
   for (const char* count :
-       {"Collisions: 0", "Collisions: 10", "Collisions: 21", "Collisions: 31"}) {
+       {"Collisions:0", "Collisions:10", "Collisions:21", "Collisions:31"}) {
     EXPECT_EQ(count_of(text, count), 1u) << count << " is not in " << text;
   }
   EXPECT_EQ(text_of(counts + Arguments{"--by", "count"}), text);
   EXPECT_NE(text_of(counts + Arguments{"--by", "time"}), text);
   // Each collision once, and what was before them.
-  const std::string all = text_of({"--digits", "2", "--frames", "32"});
+  const std::string all = text_of({"article", "--digits", "2", "--frames", "32"});
   for (int count = 0; count <= 31; ++count) {
-    const std::string shown = "Collisions: " + std::to_string(count);
+    const std::string shown = "Collisions:" + std::to_string(count);
     EXPECT_EQ(count_of(all, shown + " ") + count_of(all, shown + "\n"), 1u) << all;
   }
 }

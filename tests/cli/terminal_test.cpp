@@ -17,7 +17,8 @@ class TerminalTest : public CliFixture {
   }
 };
 
-const Arguments kRenderForTerminal{"render", "--size", "640x360", "--to", "last", "-o", "null"};
+const Arguments kRenderForTerminal{"render", "article", "--size", "640x360", "--to",
+                                   "last",   "-o",      "null"};
 
 TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
   const CommandResult result = at_terminal(kRenderForTerminal);
@@ -28,6 +29,18 @@ TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
   const std::string summary = result.err.substr(last_clear + 4);
   EXPECT_TRUE(summary.starts_with("null: 742 frames in ")) << summary;
   EXPECT_TRUE(summary.ends_with(" frames/s)\r\n")) << summary;
+}
+
+/// Where no scene is named, somebody may not know that there is a film.
+TEST_F(TerminalTest, ARenderingWithoutASceneTellsOfTheFilm) {
+  const std::string hint = "for a lecture: piblocks render why-pi -o why-pi.mp4\r\n";
+  const Arguments bare{"render", "--size", "64x36", "--to", "1", "-o", "null"};
+  const std::string said = at_terminal(bare).err;
+  EXPECT_TRUE(said.ends_with(" frames/s)\r\n" + hint)) << said;
+  EXPECT_EQ(count_of(said, "why-pi -o"), 1U);
+  EXPECT_EQ(at_terminal(bare + Arguments{"--quiet"}).err, "");
+  EXPECT_FALSE(contains(piblocks(bare).err, "for a lecture")) << "nobody looks at a file";
+  EXPECT_FALSE(contains(at_terminal(kRenderForTerminal).err, "for a lecture"));
 }
 
 TEST_F(TerminalTest, TheBarTellsRateAndTimeLeft) {

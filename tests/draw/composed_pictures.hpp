@@ -29,8 +29,10 @@ inline Settings operator+(Settings settings, const Settings& more) {
   return settings;
 }
 
+/// In the article's theme, unless a setting names another one.
 inline Scene scene_with(const Settings& settings) {
   ScriptBuilder builder;
+  builder.set("test", "view.theme", "article");
   for (const auto& [key, text] : settings) builder.set("test", key, text);
   return builder.build_scene();
 }
@@ -41,6 +43,7 @@ inline Scene scene_with(int digits, const Settings& settings) {
 
 inline View view_of_size(int width_px, int height_px) {
   View view;
+  view.theme = Theme::article;
   view.width_px = width_px;
   view.height_px = height_px;
   return view;

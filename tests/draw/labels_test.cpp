@@ -110,6 +110,29 @@ TEST(Labels, AMassStaysWhileItsBlockIsInSight) {
   EXPECT_GT(instants, 3000);
 }
 
+TEST(Labels, MassesOfTheThemeAreThereUnlessOneHasNoPlace) {
+  const auto masses = [](const Settings& settings) {
+    const Pictures pictures(3, Settings{{"view.theme", "lecture-light"}} + settings);
+    std::vector<std::string> texts;
+    for (const std::size_t n : {0U, 1U}) {
+      const std::string text = text_of(pictures.at(0), nth(ItemId::masses, n));
+      if (!text.empty()) texts.push_back(text);
+    }
+    return texts;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(masses({}), (Texts{"10,000 kg", "1 kg"}));
+  EXPECT_EQ(masses({{"view.size", "1080x1920"}}), (Texts{"10,000", "1"})) << "no room for a unit";
+  EXPECT_TRUE(masses({{"view.theme", "article"}}).empty());
+  EXPECT_TRUE(masses({{"view.theme", "dark"}}).empty());
+  EXPECT_TRUE(masses({{"show.overlays", "none"}}).empty());
+  EXPECT_TRUE(masses({{"show.overlays", "time"}}).empty());
+  // Blue is too narrow, and red would run into a label above it.
+  const Setting narrow{"blue.width", "1/10"};
+  EXPECT_TRUE(masses({narrow}).empty());
+  EXPECT_THROW(masses({narrow, {"show.overlays", "masses"}}), UsageError);
+}
+
 /// Half a figure, at the frame's edge, is another number.
 TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
   const Font font;

@@ -56,6 +56,7 @@ double area(std::span<const PixelRect> rects) {
 void expect_exact_updates(Background background) {
   for (const auto& [width, height] : {std::pair{320, 180}, {101, 75}, {64, 240}}) {
     Scene scene;
+    scene.view.theme = Theme::article;
     scene.view.background = background;
     scene.view.width_px = width;
     scene.view.height_px = height;

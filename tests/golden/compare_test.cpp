@@ -182,6 +182,7 @@ TEST(Compare, RefusesImagesOfDifferentDepths) {
 
 TEST(Compare, OneDigitOfACounterCannotHideInAFrameOf4K) {
   Scene scene;
+  scene.view.theme = Theme::article;
   scene.view.width_px = 3840;
   scene.view.height_px = 2160;
   const Pictures pictures(scene);

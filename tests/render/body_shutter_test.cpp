@@ -24,6 +24,7 @@ Scene scene_of(System system, const Rational& end) {
   const std::size_t count = system.bodies.size();
   scene.system = std::move(system);
   scene.styles.resize(count);
+  scene.view.theme = Theme::article;
   scene.view.width_px = 320;
   scene.view.height_px = 180;
   scene.view.x = {0, 8};

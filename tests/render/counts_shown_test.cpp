@@ -33,6 +33,7 @@ std::string count_of(const DrawList& list) {
 Scene scene_of(const TwoBlocks& system) {
   Scene scene;
   scene.system = system_of(system);
+  scene.view.theme = Theme::article;
   scene.view.width_px = 64;
   scene.view.height_px = 36;
   scene.view.frame_rate = 2;

@@ -50,7 +50,8 @@ TEST_F(SceneFileTest, AnEmptyListIsNoneWhereThereMayBeNone) {
     [golden]
     frames = []
   )");
-  EXPECT_TRUE(scene.show.overlays.empty() && scene.show.panels.empty());
+  EXPECT_EQ(scene.show.overlays, std::vector<Overlay>());
+  EXPECT_TRUE(scene.show.panels.empty());
   EXPECT_TRUE(scene.pacing.slow_motion.empty() && scene.pacing.freezes.empty());
   EXPECT_TRUE(scene.golden.frames.empty());
   for (const char* text :

@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 
+#include "scene/scene_toml.hpp"
 #include "support/contains.hpp"
 
 namespace piblocks {
@@ -151,6 +152,40 @@ TEST(SceneKeys, LectureThemesHaveAShutterUnlessTheSceneSaysOtherwise) {
   EXPECT_EQ(shutter({{"view.shutter", "1/4"}, {"view.theme", "lecture"}}), Rational(1, 4));
   EXPECT_EQ(shutter({{"view.theme", "lecture"}, {"view.background", "transparent"}}), 0);
   EXPECT_EQ(shutter({{"view.theme", "dark"}}), 0);
+}
+
+TEST(SceneKeys, LectureThemesShowMassesOfFewBlocksUnlessTheSceneSaysOtherwise) {
+  const auto shown = [](const Keys& keys) {
+    ScriptBuilder builder;
+    for (const auto& [key, text] : keys) builder.set("--option", key, text);
+    return overlays_of(builder.build_scene());
+  };
+  const std::vector masses = {Overlay::masses};
+  EXPECT_EQ(shown({}), masses);
+  EXPECT_EQ(shown({{"view.theme", "lecture"}}), masses);
+  EXPECT_EQ(shown({{"restitution", "0.9"}}), masses) << "the digits of pi would be rejected";
+  for (const char* theme : {"article", "chalkboard", "dark", "print", "colorblind"}) {
+    EXPECT_TRUE(shown({{"view.theme", theme}}).empty()) << theme;
+  }
+  EXPECT_EQ(shown({{"show.overlays", "time"}}), std::vector{Overlay::time});
+  EXPECT_TRUE(shown({{"show.overlays", "none"}}).empty());
+  EXPECT_TRUE(shown({{"show.overlays", ""}}).empty());
+  Scene scene;
+  scene.system = {1, std::vector<Body>(12), {}};
+  EXPECT_EQ(overlays_of(scene), masses);
+  scene.system.bodies.resize(13);
+  EXPECT_TRUE(overlays_of(scene).empty());
+  scene.system = {2, std::vector<Body>(2), {}};
+  EXPECT_TRUE(overlays_of(scene).empty()) << "discs";
+}
+
+TEST(SceneKeys, NoOverlaysAreToldFromTheThemesOverlays) {
+  Scene none;
+  none.show.overlays.emplace();
+  EXPECT_EQ(differing_keys(describe(Scene{}), describe(none)), "show.overlays");
+  ScriptBuilder builder;
+  builder.read_text("scene", scene_toml(none));
+  EXPECT_EQ(describe(builder.build_scene()), describe(none));
 }
 
 TEST(SceneKeys, DigitsAreThoseOfTheBaseInTheEnd) {

@@ -1,4 +1,4 @@
-// The article's scene for a number of digits, in frames of any size.
+// The article's scene and picture for a number of digits, in frames of any size.
 #pragma once
 
 #include <piblocks/scene.hpp>
@@ -10,6 +10,7 @@ inline Scene article_scene(int digits, int width_px = 1920, int height_px = 1080
   scene.system = article_system(digits);
   scene.view.width_px = width_px;
   scene.view.height_px = height_px;
+  scene.view.theme = Theme::article;
   return scene;
 }
 

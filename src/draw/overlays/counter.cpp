@@ -150,16 +150,20 @@ class Counter {
 
 std::string pi_count(const LayoutContext& context) {
   const Scene& scene = context.scene;
-  if (context.pair() == nullptr || !scene.show.has(Overlay::digits)) return {};
+  const bool is_asked_for = scene.show.has(Overlay::digits);
+  const bool is_of_theme = !scene.show.overlays && scene.view.theme != Theme::article;
+  if (context.pair() == nullptr || !(is_asked_for || is_of_theme)) return {};
   const PairLog& log = context.two_blocks();
   const int base = scene.show.base;
   if (!places_of_pi(log.blocks(), base)) {
+    if (is_of_theme) return {};
     throw UsageError(fmt::format(
         "show.overlays: there are no digits of pi to light up, since this scene does not count "
         "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
         base * base));
   }
   if (!counted_pi(log.blocks(), log.last(), base).empty()) return count_text(log.last(), base);
+  if (is_of_theme) return {};
   const std::string counted = log.last().get_str(base);
   std::string digits = pi_digits(base, counted.size());
   std::erase(digits, '.');

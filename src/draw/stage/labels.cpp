@@ -35,7 +35,7 @@ LabelText text_of(const LayoutContext& context, std::size_t body) {
   const std::string& label = context.scene.styles[body].label;
   if (!label.empty()) return {label, false};
   const auto& mass = context.scene.system.bodies[body].mass;
-  if (!mass || !context.scene.show.has(Overlay::masses)) return {};
+  if (!mass || !has_masses(context.scene)) return {};
   return {short_text(*mass), true};
 }
 
@@ -43,21 +43,28 @@ LabelText text_of(const LayoutContext& context, std::size_t body) {
 class BlockTexts {
  public:
   BlockTexts(const LayoutContext& context, const Layout& layout)
-      : font_(context.font), layout_(layout), size_px_(context.sizes.mass) {
+      : font_(context.font),
+        layout_(layout),
+        size_px_(context.sizes.mass),
+        most_px_(text_columns({context, layout}).width()) {
     const std::vector<Body>& bodies = context.scene.system.bodies;
     for (std::size_t i = 0; i < bodies.size(); ++i) texts_.push_back(text_of(context, i));
     find_peaks(context);
     add_units();
+    if (!context.scene.show.overlays) leave_out_masses_without_place();
   }
 
   const std::string& text(std::size_t body) const { return texts_[body].text; }
   bool is_mass(std::size_t body) const { return texts_[body].is_mass; }
   bool fits(std::size_t body) const { return fits(text(body), body); }
-  /// A block that is heavier than its neighbours may have its label above it, unless one of them
-  /// would run into it.
-  bool can_be_above(std::size_t body) const { return is_peak_[body]; }
+  /// On the block; or above it, if it is heavier than its neighbours and none of them would run into
+  /// the label.
+  bool has_place(std::size_t body) const { return has_place(text(body), body); }
 
  private:
+  bool has_place(const std::string& text, std::size_t body) const {
+    return fits(text, body) || (is_peak_[body] && font_.width_em(text) * size_px_ <= most_px_);
+  }
   bool fits(const std::string& text, std::size_t body) const {
     const bool has_unit = texts_[body].is_mass && text.ends_with('g');
     return font_.width_em(text) * size_px_ <= kMostOfBlock * layout_.width_px(body) &&
@@ -88,14 +95,23 @@ class BlockTexts {
     for (std::size_t i = 0; i < full.size(); ++i) {
       if (!full[i].is_mass) continue;
       full[i].text += " kg";
-      if (!fits(full[i].text, i) && !can_be_above(i)) return;
+      if (!has_place(full[i].text, i)) return;
     }
     texts_ = std::move(full);
+  }
+
+  void leave_out_masses_without_place() {
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+      if (!texts_[i].is_mass || has_place(i)) continue;
+      for (LabelText& label : texts_) label = label.is_mass ? LabelText() : label;
+      return;
+    }
   }
 
   const Font& font_;
   const Layout& layout_;
   double size_px_;
+  double most_px_;  ///< of a text above its block
   std::vector<LabelText> texts_;
   std::vector<bool> is_peak_;
 };
@@ -187,9 +203,7 @@ class LabelRoom {
 
 void check_room(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
   if (texts.fits(body)) return;
-  const bool is_too_wide =
-      context.font.width_em(texts.text(body)) * context.sizes.mass > text_columns(context).width();
-  if (is_too_wide || !texts.can_be_above(body)) throw_no_room(context, texts, body);
+  if (!texts.has_place(body)) throw_no_room(context, texts, body);
   const double needed = label_room_px(context.sizes);
   if (context.layout.above_px + kRounded_px >= needed) return;
   throw UsageError(fmt::format(
@@ -284,8 +298,13 @@ double label_room_px(const Sizes& sizes) {
                                                     Font::kCapHeight_em * sizes.mass);
 }
 
+bool has_masses(const Scene& scene) {
+  const std::vector<Overlay> shown = overlays_of(scene);
+  return std::ranges::count(shown, Overlay::masses) > 0;
+}
+
 bool has_labels(const LayoutContext& context) {
-  return context.scene.show.has(Overlay::masses) ||
+  return has_masses(context.scene) ||
          std::ranges::any_of(context.scene.styles,
                              [](const BodyStyle& style) { return !style.label.empty(); });
 }

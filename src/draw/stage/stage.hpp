@@ -64,11 +64,13 @@ Drawable article_blocks(const DrawingContext& context, std::string lit_digits);
 void add_blocks(const FrameState& shown, const Layout& layout,
                 const std::vector<BlockColors>& colors, std::vector<DrawItem>& items);
 
+/// Whether the scene shows masses, by itself or by its theme.
+bool has_masses(const Scene& scene);
 /// The label of each body, or its mass if the scene shows masses: on the body; or above it, if it
 /// is a block that is heavier and no lower than its neighbours, or a disc.
 /// @throws UsageError if one has no room.
 Drawable body_labels(const DrawingContext& context);
-/// Whether the scene shows any.
+/// Whether the scene shows any label or mass.
 bool has_labels(const LayoutContext& context);
 /// The blocks whose labels are above them.
 std::vector<std::size_t> labelled_above(const LayoutContext& context, const Layout& layout);

@@ -215,7 +215,8 @@ class Field {
       return box;
     });
     this.showValue = facts => {
-      chosen.splice(0, chosen.length, ...facts.keys[this.spec.key]);
+      const names = facts.keys[this.spec.key].filter(name => this.choices.includes(name));
+      chosen.splice(0, chosen.length, ...names);
       for (const box of boxes) box.checked = chosen.includes(box.value);
     };
     return element("fieldset", {className: "field list"},

@@ -79,9 +79,10 @@ const std::map<std::string, Write>& writers() {
   return kWriters;
 }
 
-/// The frames of one thread, drawn as the program draws them; a Scene is the article's by default.
+/// The frames of one thread, drawn as the program draws them.
 void write_frames(const Options& options, std::int64_t begin, std::int64_t end) {
-  const Scene scene;
+  Scene scene;
+  scene.view.theme = Theme::article;
   const auto log = make_pair_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const Composition composition(scene, *log);

@@ -14,16 +14,16 @@ FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 # Pixels: the size of one unit of the scene, where its origin is, the label's baseline.
 UNIT = 140
-ORIGIN_X, ORIGIN_Y = 190, 613
-LINE = 3
+ORIGIN_X, ORIGIN_Y = 190, 609
+LINE, DASH = 3, 12
 TEXT_SIZE = 80
-TEXT_X, TEXT_Y = 640, 393
+TEXT_X, TEXT_Y = 682, 389
 
 # Red, green, blue.
 WHITE = (255, 255, 255)
 BLACK = (0, 0, 0)
-BLUE, BLUE_EDGE = (38, 84, 204), (22, 52, 134)
-RED, RED_EDGE = (214, 48, 40), (138, 24, 20)
+BLUE = (0, 0, 255)
+RED = (255, 0, 0)
 TEXT = (16, 16, 16)
 
 
@@ -66,12 +66,12 @@ def block(position):
 
 
 def wall():
-    """Left, top, width and height of the wall, in pixels."""
-    return ORIGIN_X - UNIT, ORIGIN_Y - UNIT, UNIT, 2 * UNIT
+    """Column, top and bottom of the dashed line that is the wall, in pixels."""
+    return ORIGIN_X - LINE / 2, ORIGIN_Y - UNIT, ORIGIN_Y + UNIT
 
 
 def label(count):
-    return f"Collisions: {count}"
+    return f"Collisions:{count}"
 
 
 def ffmpeg(pixel_format, output):

@@ -12,15 +12,14 @@ unset key; unset border; unset tics
 set margins 0, 0, 0, 0
 set xrange [0:{width}]
 set yrange [{height}:0]
-set object 1 rectangle from {wall[0]},{wall[1]} rto {wall[2]},{wall[3]} \
-  fillstyle empty border rgb "black" dashtype 2
+set arrow 1 from {wall[0]},{wall[1]} to {wall[0]},{wall[2]} nohead linecolor rgb "black" dashtype 2
 """
 FRAME = """
 set output "{name}"
 set object 2 rectangle from {red[0]},{red[1]} rto {red[2]},{red[2]} \
-  fillcolor rgb {red_fill} fillstyle solid border rgb {red_edge}
+  fillcolor rgb {red_fill} fillstyle solid noborder
 set object 3 rectangle from {blue[0]},{blue[1]} rto {blue[2]},{blue[2]} \
-  fillcolor rgb {blue_fill} fillstyle solid border rgb {blue_edge}
+  fillcolor rgb {blue_fill} fillstyle solid noborder
 set label 1 "{text}" at {x},{y}
 plot NaN
 """
@@ -38,9 +37,7 @@ def script(folder, frames):
         yield FRAME.format(
             name=os.path.join(folder, "%06d.png" % number),
             red=article.block(red), red_fill=gnuplot_colour(article.RED),
-            red_edge=gnuplot_colour(article.RED_EDGE),
             blue=article.block(blue), blue_fill=gnuplot_colour(article.BLUE),
-            blue_edge=gnuplot_colour(article.BLUE_EDGE),
             text=article.label(count), x=article.TEXT_X, y=article.TEXT_Y)
 
 

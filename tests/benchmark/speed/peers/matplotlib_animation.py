@@ -24,11 +24,9 @@ def points(pixels):
     return pixels * 72 / DPI
 
 
-def add_block(axes, position, fill, edge):
+def add_block(axes, position, fill):
     left, top, side = article.block(position)
-    return axes.add_patch(Rectangle((left, top), side, side, facecolor=hexadecimal(fill),
-                                    edgecolor=hexadecimal(edge),
-                                    linewidth=points(article.LINE)))
+    return axes.add_patch(Rectangle((left, top), side, side, facecolor=hexadecimal(fill)))
 
 
 def main():
@@ -40,11 +38,11 @@ def main():
     axes.set_xlim(0, article.WIDTH)
     axes.set_ylim(article.HEIGHT, 0)
 
-    left, top, width, height = article.wall()
-    axes.add_patch(Rectangle((left, top), width, height, fill=False, linestyle="--",
-                             linewidth=points(article.LINE)))
-    red = add_block(axes, 5, article.RED, article.RED_EDGE)
-    blue = add_block(axes, 2, article.BLUE, article.BLUE_EDGE)
+    column, top, bottom = article.wall()
+    axes.plot([column, column], [top, bottom], color="black", linestyle="--",
+              linewidth=points(article.LINE))
+    red = add_block(axes, 5, article.RED)
+    blue = add_block(axes, 2, article.BLUE)
     label = axes.text(article.TEXT_X, article.TEXT_Y, "", fontsize=points(article.TEXT_SIZE))
 
     def update(state):

@@ -10,23 +10,30 @@ def bgr(colour):
     return colour[::-1]
 
 
-def rectangle(frame, left, top, width, height, colour, thickness):
+def rectangle(frame, left, top, right, bottom, colour):
     low = (round(left), round(top))
-    high = (round(left + width), round(top + height))
-    cv2.rectangle(frame, low, high, bgr(colour), thickness)
+    high = (round(right) - 1, round(bottom) - 1)
+    cv2.rectangle(frame, low, high, bgr(colour), cv2.FILLED)
 
 
-def draw_block(frame, position, fill, edge):
+def draw_wall(frame):
+    column, top, bottom = article.wall()
+    half = article.LINE / 2
+    for dash in range(top, bottom, 2 * article.DASH):
+        rectangle(frame, column - half, dash, column + half, min(dash + article.DASH, bottom),
+                  article.BLACK)
+
+
+def draw_block(frame, position, fill):
     left, top, side = article.block(position)
-    rectangle(frame, left, top, side, side, fill, cv2.FILLED)
-    rectangle(frame, left, top, side, side, edge, article.LINE)
+    rectangle(frame, left, top, left + side, top + side, fill)
 
 
 def draw(frame, blue, red, count):
     frame[:] = 255
-    rectangle(frame, *article.wall(), article.BLACK, article.LINE)
-    draw_block(frame, red, article.RED, article.RED_EDGE)
-    draw_block(frame, blue, article.BLUE, article.BLUE_EDGE)
+    draw_wall(frame)
+    draw_block(frame, red, article.RED)
+    draw_block(frame, blue, article.BLUE)
     cv2.putText(frame, article.label(count), (article.TEXT_X, article.TEXT_Y),
                 cv2.FONT_HERSHEY_SIMPLEX, 2.7, bgr(article.TEXT), 5, cv2.LINE_AA)
 

@@ -6,20 +6,20 @@ from PIL import Image, ImageDraw, ImageFont
 import article
 
 
-def draw_block(draw, position, fill, edge):
+def draw_block(draw, position, fill):
     left, top, side = article.block(position)
-    draw.rectangle([left, top, left + side, top + side], fill=fill, outline=edge,
-                   width=article.LINE)
+    draw.rectangle([left, top, left + side - 1, top + side - 1], fill=fill)
 
 
 def draw_frame(image, font, blue, red, count):
     draw = ImageDraw.Draw(image)
     draw.rectangle([0, 0, article.WIDTH, article.HEIGHT], fill=article.WHITE)
-    left, top, width, height = article.wall()
-    draw.rectangle([left, top, left + width, top + height], outline=article.BLACK,
-                   width=article.LINE)
-    draw_block(draw, red, article.RED, article.RED_EDGE)
-    draw_block(draw, blue, article.BLUE, article.BLUE_EDGE)
+    column, top, bottom = article.wall()
+    for dash in range(top, bottom, 2 * article.DASH):
+        draw.line([column, dash, column, min(dash + article.DASH, bottom)], fill=article.BLACK,
+                  width=article.LINE)
+    draw_block(draw, red, article.RED)
+    draw_block(draw, blue, article.BLUE)
     draw.text((article.TEXT_X, article.TEXT_Y), article.label(count), fill=article.TEXT, font=font,
               anchor="ls")
 
