@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rounded.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -52,7 +54,7 @@ std::string half_turn_text(const TwoBlocks& system) {
   // No other rational number is the squared tangent of a whole part of pi (Niven, "Irrational
   // Numbers").
   const bool is_whole = ratio == 1 || ratio == 3 || ratio == Rational(1, 3);
-  const double angles = std::numbers::pi / std::atan(1 / std::sqrt(to_double(ratio)));
+  const double angles = std::numbers::pi / rounded::atan2(1, std::sqrt(to_double(ratio)));
   if (is_whole || !counts_angles(system) || !(angles < kMost)) return {};
   const Integer root = sqrt(Integer(ratio.get_num()));
   const double scaled_pi = std::numbers::pi * root.get_d();

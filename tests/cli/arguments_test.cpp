@@ -167,7 +167,7 @@ TEST_F(ArgumentsTest, ASceneMayComeFromStandardInput) {
   EXPECT_EQ(from_input({"count", "-"}).err,
             "piblocks: standard input:2: viev.size: unknown key; did you mean 'view.size'?\n");
   EXPECT_EQ(refusal({"count", "-"}),
-            "piblocks: scene: standard input is empty; leave '-' out for the article's scene\n");
+            "piblocks: scene: standard input is empty; leave '-' out for the default scene\n");
   write("scene.toml", std::string(1048577, '#'));
   EXPECT_TRUE(
       contains(from_input({"count", "-"}).err, "'standard input' is longer than 1048576 bytes"));

@@ -65,12 +65,12 @@ TEST_P(BodiesRender, StillsAndSheetsAreOfEveryKind) {
   EXPECT_TRUE(contents("a.pdf").starts_with("%PDF-"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, BodiesRender, testing::Values("recoil", "gas"),
+INSTANTIATE_TEST_SUITE_P(Shipped, BodiesRender, testing::Values("superball", "gas"),
                          [](const auto& one) { return std::string(one.param); });
 
 /// Nothing is heard before the first collision, and each is heard from its time on.
 TEST_F(BodiesCli, CollisionsAreHeard) {
-  for (const char* scene : {"three-blocks", "billiard", "recoil"}) {
+  for (const char* scene : {"three-blocks", "billiard", "superball"}) {
     output_of({"render", scene, "--quiet", "--fps", "10", "-o", "a.wav"});
     const std::string wav = contents("a.wav");
     const auto number = [&](std::size_t at) {

@@ -74,7 +74,7 @@ TEST_F(BundleTest, ThePosterIsTheLastFrameOrTheOneAskedFor) {
   std::erase_if(pictures, [](const std::string& name) { return !name.starts_with("all/"); });
   output_of({"compare", "talk/poster.png", pictures.back()});
   output_of(kRender + Arguments{"--bundle", "talk", "--poster", "#7"});
-  output_of({"still", "--size", "64x36", "--at", "#7", "-o", "7.png"});
+  output_of({"still", "--size", "64x36", "--fps", "30", "--at", "#7", "-o", "7.png"});
   EXPECT_TRUE(contents("talk/poster.png") == contents("7.png"));
 }
 

@@ -18,7 +18,7 @@ constexpr const char* kMostChroma = "125";
 class CompareTest : public CompareFixture {
  protected:
   void write_picture(const std::string& name, const std::string& size = "160x90") const {
-    output_of({"still", "--size", size, "--at", "1", "-o", name});
+    output_of({"still", "--theme", "article", "--size", size, "--at", "1", "-o", name});
   }
   /// A second of 12 frames, unless the options say otherwise.
   void render(const std::string& output, const Arguments& more = {}) const {

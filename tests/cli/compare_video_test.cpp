@@ -9,7 +9,7 @@ class CompareVideoTest : public CompareFixture {
  protected:
   void render(const std::string& name, const Arguments& options = {}) const {
     output_of(
-        Arguments{"render", "--quiet", "--size", "64x36", "--fps", "10", "--to", "1", "-o", name} +
+        Arguments{"render", "--quiet", "--theme", "article", "--size", "64x36", "--fps", "10", "--to", "1", "-o", name} +
         options);
   }
 };

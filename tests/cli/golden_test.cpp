@@ -47,7 +47,7 @@ TEST_F(GoldenTest, FramesAreRoundedToEvenSides) {
                                    {"1001x751", "480x360"},
                                    {"4096x2", "480x2"},
                                    {"320x180", "320x180"}}) {
-    write("scene.toml", fmt::format("time.to = 0.1\nview.fps = 10\nview.size = '{}'\n", size));
+    write("scene.toml", fmt::format("time.to = 0.1\nview.fps = 10\nview.size = '{}'\nview.theme = 'article'\n", size));
     fs::remove_all(folder_ / "refs");
     expect(golden("record"), 0, "scene: recorded");
     EXPECT_TRUE(

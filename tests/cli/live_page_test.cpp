@@ -270,7 +270,7 @@ TEST_F(LivePageTest, IsFoundFromTheBuildFolder) {
   place(kPage, tree() / "out" / "piblocks.html");
   expect_failure({}, 1, "No such file");
   std::ofstream(bin() / "CMakeCache.txt") << "";
-  EXPECT_EQ(scene_in(written({"--digits", "2"})), "red.mass = 100\n");
+  EXPECT_EQ(scene_in(written({"--digits", "2"})), "red.mass = 100\nview.shutter = \"1/2\"\n");
   place(kBefore, tree() / "out" / "piblocks.html");
   expect_failure({}, 1, "/tree/out/piblocks.html': it has no '<script");
 }

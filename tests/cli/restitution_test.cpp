@@ -53,7 +53,7 @@ TEST_F(RestitutionTest, WrongValuesAreNamed) {
   for (const char* share : {"1.01", "-1/9", "much"}) {
     expect_refusal({"count", "--restitution", share}, "piblocks: --restitution: restitution = ");
   }
-  for (const char* scene : {"gas", "recoil"}) {
+  for (const char* scene : {"gas", "three-blocks"}) {
     expect_refusal({"count", scene, "--restitution", "0.9"},
                    "--restitution: restitution is less than 1, which needs two blocks beside one "
                    "wall or fixed block, and no more; leave it out");

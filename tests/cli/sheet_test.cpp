@@ -28,7 +28,7 @@ class SheetTextTest : public SheetTest {
     if (std::system("command -v pdftotext > /dev/null") != 0) GTEST_SKIP() << "no pdftotext here";
   }
   std::string text_of(const Arguments& options) const {
-    output_of(Arguments{"sheet", "-o", "a.pdf"} + options);
+    output_of(Arguments{"sheet", "--theme", "article", "-o", "a.pdf"} + options);
     // Spaces that are narrower than those between pictures get lost.
     std::string text;
     for (const char c : shell("pdftotext -layout a.pdf -")) {

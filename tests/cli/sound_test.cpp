@@ -9,7 +9,7 @@
 namespace piblocks {
 namespace {
 
-const Arguments kSmallSound{"--size", "64x36", "--fps", "10", "--quiet"};
+const Arguments kSmallSound{"--theme", "article", "--size", "64x36", "--fps", "10", "--quiet"};
 
 class SoundTest : public CliFixture {
  protected:

@@ -30,9 +30,9 @@ TEST_F(StillTest, PngHasTheSizeAskedFor) {
   expect_png(contents("default.png"), 1920, 1080);
   output_of({"still", "--at", "3", "--size", "65x37", "-o", "odd.png"});
   expect_png(contents("odd.png"), 65, 37);
-  output_of({"still", "--at", "3", "--size", "1x1", "-o", "small.png"});
+  output_of({"still", "--at", "3", "--theme", "article", "--size", "1x1", "-o", "small.png"});
   expect_png(contents("small.png"), 1, 1);
-  output_of({"still", "--at", "3", "--size", "16384x2", "-o", "wide.png"});
+  output_of({"still", "--at", "3", "--theme", "article", "--size", "16384x2", "-o", "wide.png"});
   expect_png(contents("wide.png"), 16384, 2);
 }
 
@@ -73,7 +73,7 @@ TEST_F(StillTest, VectorFilesAreSharpAndSaySo) {
 
 TEST_F(StillTest, ExposureDependsOnRateAndSpeed) {
   const auto picture = [&](const Arguments& more) {
-    return output_of(Arguments{"still", "--at", "4", "--size", "320x180", "-o", "-"} + more);
+    return output_of(Arguments{"still", "--at", "4", "--theme", "article", "--size", "320x180", "-o", "-"} + more);
   };
   const std::string half = picture({"--shutter", "0.5"});
   EXPECT_NE(half, picture({}));
@@ -103,7 +103,7 @@ TEST_F(StillTest, ReplacesAFileAndKeepsItsNeighbours) {
 
 TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {
   const auto expect = [&](const char* size, const Arguments& show, const std::string& message) {
-    expect_refusal(Arguments{"still", "--at", "3", "-o", "a.png", "--size", size} + show, message);
+    expect_refusal(Arguments{"still", "--at", "3", "--theme", "article", "-o", "a.png", "--size", size} + show, message);
   };
   expect("120x12", {"--show", "time"},
          "show: 'time' leaves too little room for the blocks in 120x12; leave");
@@ -128,10 +128,10 @@ TEST_F(StillTest, RefusesTextThatNeedsShaping) {
 /// Any still is a picture.
 TEST_F(StillTest, LogosOfAnyShapeAreShownOrRefused) {
   const auto logo = [&](const std::string& size, const Arguments& more = {}) {
-    output_of(Arguments{"still", "--at", "3", "--size", size, "-o", size + ".png"} + more);
-    return Arguments{"still", "--at", "3", "-o", "a.png", "--logo", size + ".png"};
+    output_of(Arguments{"still", "--at", "3", "--theme", "article", "--size", size, "-o", size + ".png"} + more);
+    return Arguments{"still", "--at", "3", "--theme", "article", "-o", "a.png", "--logo", size + ".png"};
   };
-  const std::string plain = output_of({"still", "--at", "3", "--size", "640x360", "-o", "-"});
+  const std::string plain = output_of({"still", "--at", "3", "--theme", "article", "--size", "640x360", "-o", "-"});
   for (const char* size : {"1x1", "3x2", "640x360", "4000x3000", "16x1", "1x16"}) {
     const Arguments still = logo(size);
     output_of(still + Arguments{"--size", "640x360"});

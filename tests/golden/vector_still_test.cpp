@@ -96,11 +96,11 @@ const std::vector<VectorCase> kKinds{
       kAllOverlays, "--title", "Où se cache π ?", "--caption", "Zwei Blöcke zählen", "--logo",
       "logo.png"}},
     {"diagrams_of_gaps",
-     {"--at", "3.7", "--size", "640x480", "--panels", "position,unfolded,mirrors"}},
-    {"diagrams_of_runs", {"--at", "3.7", "--size", "640x480", "--panels", "time,count,velocity"}},
+     {"--at", "3.7", "--size", "640x480", "--shutter", "0", "--panels", "position,unfolded,mirrors"}},
+    {"diagrams_of_runs", {"--at", "3.7", "--size", "640x480", "--shutter", "0", "--panels", "time,count,velocity"}},
     {"ellipse", {"--digits", "2", "--at", "4", "--size", "480x360", "--panels", "ellipse"}},
-    {"bars", {"--at", "3.7", "--size", "480x360", "--panels", "conservation"}},
-    {"certainty", {"--at", "3.7", "--size", "480x360", "--panels", "certainty"}},
+    {"bars", {"--at", "3.7", "--size", "480x360", "--shutter", "0", "--panels", "conservation"}},
+    {"certainty", {"--at", "3.7", "--size", "480x360", "--shutter", "0", "--panels", "certainty"}},
     {"discs", {"touch", "--at", "#1+0.3", "--size", "640x480"}},
     {"row", {"three-blocks", "--at", "#1", "--size", "640x480", "--theme", "print"}},
 };
@@ -120,7 +120,7 @@ TEST_P(VectorSheets, LookLikeThePixels) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, VectorSheets,
                          testing::Values(VectorCase{"full",
-                                                    {"--show", kAllOverlays, "--panels",
+                                                    {"--theme", "article", "--show", kAllOverlays, "--panels",
                                                      "velocity,unfolded", "--title", "Two"}}),
                          case_name);
 

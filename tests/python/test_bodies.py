@@ -68,7 +68,7 @@ def test_counts_are_those_of_the_program(program):
     for to in (1, 4, 40):
         scene = scene_of(BLOCKS, time_to=to)
         assert scene.count == int(program("count", "scene.toml", "--to", str(to)))
-    for name in ("three-blocks", "recoil", "billiard", "wedge", "touch", "superball"):
+    for name in ("three-blocks", "billiard", "wedge", "touch", "superball"):
         text = program("scenes", name).decode()
         assert scene_of(text).count == int(program("count", name)), name
 
@@ -98,7 +98,7 @@ def npy_of(program, *arguments):
 
 
 #: On a line, in a plane, in closed form, without an end.
-SCENES = ["three-blocks", "row", "superball", "recoil", "touch", "wedge", "billiard", "two-walls"]
+SCENES = ["three-blocks", "row", "superball", "touch", "wedge", "billiard", "two-walls"]
 
 
 @pytest.mark.parametrize("name", SCENES)
