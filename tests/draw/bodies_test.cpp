@@ -193,6 +193,32 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
   }
 }
 
+/// The names of axes replace figures, but for two that say how long a unit is.
+TEST(BodyPictures, AxesHaveNames) {
+  const auto texts_of = [](const std::string& name, const Settings& settings) {
+    std::set<std::string> texts;
+    for (const TextItem& text : items_of<TextItem>(Film(shipped(name, settings)).frame(0).items)) {
+      if (text.id >= ItemId::panels) texts.insert(text.text);
+    }
+    return texts;
+  };
+  EXPECT_TRUE(texts_of("gas", {}).contains("speed"));
+  EXPECT_TRUE(texts_of("touch", {}).contains("time"));
+  EXPECT_TRUE(texts_of("three-blocks", {}).contains("time"));
+  const std::set<std::string> wide = texts_of("touch", {{"view.size", "1280x720"}});
+  EXPECT_TRUE(wide.contains("0") && wide.contains("2")) << "figures beside the name";
+}
+
+/// A wedge is flat: beside a diagram it would be small.
+TEST(BodyPictures, DiagramsAreBelowAFlatView) {
+  const auto window_width = [](const char* top) {
+    const Film film(shipped("wedge", {{"view.size", "1280x720"}, {"view.y", top}}));
+    return std::get<GroupItem>(film.frame(0).items.front()).bounds.width;
+  };
+  EXPECT_EQ(window_width("-0.3,2"), 1280);
+  EXPECT_LT(window_width("-0.3,8"), 800) << "this view is less than twice as wide as high";
+}
+
 /// Discs that touch when the scene begins collide then if they approach each other.
 TEST(BodyPictures, SeparationHasTheCollisionAtTheBeginning) {
   const auto make = [](const char* speed, const char* from) {

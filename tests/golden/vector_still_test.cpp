@@ -145,10 +145,11 @@ std::vector<VectorCase> themes_and_scenes() {
     cases.push_back(
         named(theme + "-discs", Arguments{"billiard", "--show", "masses,trails"} + common));
   }
-  for (const std::string scene : {"three-blocks", "two-walls", "row", "cradle", "superball",
-                                  "recoil", "gas", "billiard", "brownian", "wedge", "touch"}) {
+  for (const std::string scene : {"three-blocks", "two-walls", "row", "cradle", "superball", "gas",
+                                  "billiard", "brownian", "wedge", "touch"}) {
     cases.push_back(named(scene, {scene, "--at", "#1+0.3"}));
   }
+  cases.push_back(named("recoil", {"recoil", "--at", "4"}));
   return cases;
 }
 
