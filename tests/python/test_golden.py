@@ -19,7 +19,7 @@ def ratio():
 @pytest.mark.piblocks_golden(dir="golden", frames=[0, "turn"])
 @pytest.mark.parametrize("size", ["64x36", "128x72"])
 def test_turn(ratio, size):
-    return Scene(mass_ratio=ratio, view_size=size, view_fps=5)
+    return Scene(mass_ratio=ratio, view_size=size, view_fps=5, view_theme="article")
 
 class TestNamed:
     @pytest.mark.piblocks_golden(name="named")

@@ -107,9 +107,9 @@ def test_none_resets_to_the_default():
     assert Scene(view_fps=3).replace(view={"fps": None, "size": "64x36"}) == Scene(view_size="64x36")
     for scene in (Scene.shipped("lecture"), Scene.from_toml_text('[view]\ntheme = "dark"\n')):
         plain = scene.replace(view_theme=None)
-        assert dict(plain._description())[b"view.theme"] == b"article"
+        assert dict(plain._description())[b"view.theme"] == b"lecture-light"
         assert plain.replace(view_theme="print") == scene.replace(view_theme="print")
-        assert dict(plain.replace(view_fps=7)._description())[b"view.theme"] == b"article"
+        assert dict(plain.replace(view_fps=7)._description())[b"view.theme"] == b"lecture-light"
     # Also of what the file sets by another key.
     lossy = Scene.from_toml_text("restitution = 0.5")
     assert lossy.replace(blocks_restitution=None) == Scene(wall_restitution=0.5)
