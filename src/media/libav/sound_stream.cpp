@@ -103,6 +103,10 @@ AvCodecContextPtr SoundEncoder::open() const {
   context->sample_fmt = codec_->id == AV_CODEC_ID_OPUS ? AV_SAMPLE_FMT_FLT : AV_SAMPLE_FMT_FLTP;
   av_channel_layout_default(&context->ch_layout, kChannels);
   context->bit_rate = settings_.bit_rate;
+  if (settings_.bit_rate == 0) {
+    context->flags |= AV_CODEC_FLAG_QSCALE;
+    context->global_quality = int(settings_.quality * FF_QP2LAMBDA);
+  }
   if (settings_.option != nullptr) set_option(*context, settings_.option, settings_.value);
   context->time_base = {1, format_.rate_hz};
   context->thread_count = 1;
@@ -113,8 +117,8 @@ AvCodecContextPtr SoundEncoder::open() const {
 }
 
 std::string SoundEncoder::signature() const {
-  return fmt::format("{} at {} bit/s, libavcodec {}", codec_->name, settings_.bit_rate,
-                     version_text(avcodec_version()));
+  return fmt::format("{} at {} bit/s and quality {}, libavcodec {}", codec_->name,
+                     settings_.bit_rate, settings_.quality, version_text(avcodec_version()));
 }
 
 std::unique_ptr<PacketSource> SoundEncoder::encode(SampleSource& samples) const {

@@ -13,14 +13,17 @@ namespace piblocks {
 
 struct SoundCodec {
   const char* name = nullptr;    ///< libavcodec's name of the encoder
-  int bit_rate = 0;              ///< per second
+  int bit_rate = 0;              ///< per second; 0 for constant quality
+  double quality = 0;            ///< as ffmpeg's -q:a has it, of an encoder without bit_rate
   const char* option = nullptr;  ///< one of the encoder's own, and its value
   const char* value = nullptr;
 };
 
 /// For MP4 and MOV. The coder takes half the default one's time, and is as true to dense clacks.
+/// At constant quality it encodes each packet once; to meet a bit rate it would do so several
+/// times.
 inline constexpr SoundCodec kAac = {
-    .name = "aac", .bit_rate = 192'000, .option = "aac_coder", .value = "fast"};
+    .name = "aac", .quality = 2.5, .option = "aac_coder", .value = "fast"};
 /// For WebM.
 inline constexpr SoundCodec kOpus = {.name = "libopus", .bit_rate = 160'000};
 
@@ -34,7 +37,7 @@ class SoundEncoder {
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }
   /// Pairs of samples in a packet; the last packet may have fewer.
   int packet_size() const noexcept { return parameters_->frame_size; }
-  /// The encoder's name and bit rate, and libavcodec's version.
+  /// The encoder's name and settings, and libavcodec's version.
   std::string signature() const;
   /// The first packet begins before sample 0, by the delay of the encoder.
   /// @throws MediaError if the encoder cannot be opened.
