@@ -86,11 +86,11 @@ MacroblockCoder::MacroblockCoder(int qp)
       inter_{{qp, Rounding::inter}, {chroma_qp(qp), Rounding::inter}} {}
 
 CodedMacroblock MacroblockCoder::code(const MacroblockInput& input) const {
-  // A type is tried if so many bits of it would cost less than the best type so far: about half of
-  // what it takes in the article's scene (README.md has the measurements).
+  // A type is tried if so many bits of it would cost less than the best type so far: about what it
+  // takes in the article's scene (README.md has the measurements).
   constexpr int kTryI16x16_bits = 6;
-  constexpr int kTryPL016x16_bits = 110;
-  constexpr int kTryINxN_bits = 120;
+  constexpr int kTryPL016x16_bits = 200;
+  constexpr int kTryINxN_bits = 300;
   const bool is_p = input.slice_type == SliceType::p;
   CodedMacroblock best = is_p ? p_skip(input) : CodedMacroblock(MbType::i_pcm);
   const auto compare = [&](auto&& candidate) {

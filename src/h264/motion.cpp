@@ -13,6 +13,9 @@ namespace {
 /// down (table A-1).
 constexpr int kRange = 120;
 
+/// So far along each axis motion is looked for everywhere.
+constexpr int kAlwaysReach = 8;
+
 /// Motion leaves a smaller sum of differences in 256 samples: what a quantiser leaves doubles with
 /// every 6 steps. 768 * 2^((qp - 14)/6), rounded down.
 int near_of(int qp) {
@@ -100,8 +103,8 @@ void try_near(MotionVector vector, Nearest& nearest) {
 }
 
 /// Where something slides or scrolls.
-void try_along_axes(int reach, Nearest& nearest) {
-  for (int i = 1; i <= reach && !nearest.is_near_enough(); ++i) {
+void try_along_axes(int from, int to, Nearest& nearest) {
+  for (int i = from; i <= to && !nearest.is_near_enough(); ++i) {
     for (const MotionVector vector : {MotionVector{i, 0}, {-i, 0}, {0, i}, {0, -i}}) {
       nearest.try_vector(vector);
     }
@@ -227,8 +230,9 @@ std::optional<MotionVector> MotionSearch::find(const Samples& source, const Pict
   for (const MotionVector vector : recent_) {
     if (!nearest.is_near_enough()) try_near(vector, nearest);
   }
+  if (!nearest.is_near_enough()) try_along_axes(1, kAlwaysReach, nearest);
   if (!nearest.is_near_enough() && searches_left_ > 0) {
-    try_along_axes(reach_, nearest);
+    try_along_axes(kAlwaysReach + 1, reach_, nearest);
     if (reach_ == kRange && !nearest.vector()) try_around(nearest);
     searches_left_ =
         nearest.is_near_enough() ? std::max(searches_left_, kMostSearches) : searches_left_ - 1;

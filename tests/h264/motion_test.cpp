@@ -137,12 +137,15 @@ TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) 
   Samples other;
   noise(random, 8, 8).load(1, 1, other);
   Samples slid;
-  predict_moved(before, 4, 4, {5, 0}, slid);
+  predict_moved(before, 4, 4, {9, 0}, slid);
+  Samples crept;
+  predict_moved(before, 4, 4, {0, -8}, crept);
   MotionSearch search(14);
   for (int i = 0; i < 20; ++i) EXPECT_FALSE(search.find(other, before, 4, 4, kBesideStill));
   EXPECT_FALSE(search.find(slid, before, 4, 4, kBesideStill)) << "it has given up for this picture";
+  EXPECT_EQ(search.find(crept, before, 4, 4, kBesideStill), (MotionVector{0, -8}));
   search.begin_picture(0);
-  EXPECT_EQ(search.find(slid, before, 4, 4, kBesideStill), (MotionVector{5, 0}));
+  EXPECT_EQ(search.find(slid, before, 4, 4, kBesideStill), (MotionVector{9, 0}));
 }
 
 TEST(MotionSearch, GoesFarWhereMuchHasChanged) {
