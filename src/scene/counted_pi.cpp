@@ -4,24 +4,19 @@
 #include <piblocks/exact.hpp>
 #include <piblocks/two_blocks.hpp>
 
-#include <cmath>
-#include <numbers>
-
-#include "core/rounded.hpp"
+#include "core/real.hpp"
 
 namespace piblocks {
 namespace {
 
-/// Whether the count is the number of angles θ that half a turn has, without the last one where no
-/// rest is left.
+/// Whether the count is the number of whole multiples of θ = arctan √(m1/m2) in half a turn.
 bool counts_angles(const TwoBlocks& system) {
   return is_elastic(system) && system.blue.velocity == 0 && system.red.velocity < 0 &&
          system.blue_gap() > 0;
 }
 
-/// "31.4…": the decimals are cut off.
-std::string cut_text(double value) {
-  const Integer tenths(std::floor(10 * value));
+/// "31.4…" for 314
+std::string text_of_tenths(const Integer& tenths) {
   return fmt::format("{}.{}…", with_thousands_separators(tenths / 10),
                      Integer(tenths % 10).get_str());
 }
@@ -48,21 +43,23 @@ std::string counted_pi(const TwoBlocks& system, const Integer& total, int base) 
 }
 
 std::string half_turn_text(const TwoBlocks& system) {
-  constexpr double kMost = 1e6;
+  constexpr int kMostTenths = 10'000'000;
   constexpr int kLeastRoot = 10;
+  constexpr mpfr_prec_t kBits = 128;
   const Rational ratio = system.red.mass / system.blue.mass;
   // No other rational number is the squared tangent of a whole part of pi (Niven, "Irrational
   // Numbers").
   const bool is_whole = ratio == 1 || ratio == 3 || ratio == Rational(1, 3);
-  const double angles = std::numbers::pi / rounded::atan2(1, std::sqrt(to_double(ratio)));
-  if (is_whole || !counts_angles(system) || !(angles < kMost)) return {};
+  if (is_whole || !counts_angles(system)) return {};
+  const Real tenfold_pi = Real::pi(kBits) * Real(kBits, 10);
+  const Integer tenths = (tenfold_pi / atan(sqrt(Real(kBits, 1 / ratio)))).floor();
+  if (tenths >= kMostTenths) return {};
   const Integer root = sqrt(Integer(ratio.get_num()));
-  const double scaled_pi = std::numbers::pi * root.get_d();
-  const bool is_near = std::floor(scaled_pi) == std::floor(angles);
-  if (root < kLeastRoot || Rational(root * root) != ratio || !is_near) {
-    return "π/θ = " + cut_text(angles);
+  const Integer scaled_pi = (tenfold_pi * Real(kBits, root)).floor();
+  if (root < kLeastRoot || Rational(root * root) != ratio || scaled_pi / 10 != tenths / 10) {
+    return "π/θ = " + text_of_tenths(tenths);
   }
-  return fmt::format("π/θ ≈ {}π = {}", with_thousands_separators(root), cut_text(scaled_pi));
+  return fmt::format("π/θ ≈ {}π = {}", with_thousands_separators(root), text_of_tenths(scaled_pi));
 }
 
 }  // namespace piblocks
