@@ -17,8 +17,8 @@
 namespace piblocks {
 
 /// Samples are in steps of 255, of sRGB (IEC 61966-2-1).
-inline double to_light(int sample) {
-  const double v = sample / 255.0;
+inline double to_light(double sample) {
+  const double v = sample / 255;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
@@ -71,12 +71,13 @@ class MeanLight {
   int count_ = 0;
 };
 
+constexpr int kInstants = 1000;
+
 /// The mean of the pictures of many instants at which a frame's shutter is open.
 /// @param samples  those of a picture that count
 template <typename Samples>
 std::vector<double> mean_of_instants(const Scene& open, std::int64_t frame,
                                      const Samples& samples) {
-  constexpr int kInstants = 1000;
   Scene scene = open;
   scene.view.shutter = 0;
   const auto log = log_of(scene);
@@ -98,7 +99,9 @@ std::vector<double> mean_of_instants(const Scene& open, std::int64_t frame,
 }
 
 struct LightDifference {
-  double worst = 0;  ///< steps of 255
+  /// Steps of 255. Near black these are finer than the light of a single instant; steps of that
+  /// size take their place.
+  double worst = 0;
   double mean = 0;
 };
 
@@ -106,7 +109,8 @@ inline LightDifference difference_of(const std::vector<int>& samples,
                                      const std::vector<double>& wanted) {
   LightDifference difference;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double apart = std::fabs(samples[i] - wanted[i]);
+    const double light = std::fabs(to_light(samples[i]) - to_light(wanted[i]));
+    const double apart = std::min(std::fabs(samples[i] - wanted[i]), kInstants * light);
     difference.worst = std::max(difference.worst, apart);
     difference.mean += apart / double(samples.size());
   }

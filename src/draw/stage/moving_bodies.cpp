@@ -18,7 +18,7 @@ using PlacedBodies = std::vector<const PlacedBody*>;
 constexpr ItemId kMovingBodies = nth(ItemId::blue_block, 500);
 
 // Moments per mean: the least number, and one more for each pixel of the longest way. The tests
-// hold blocks to 5 steps of 255 beside a mean of 1,000 pictures of instants. Round edges need
+// hold blocks to 6 steps of 255 beside a mean of 1,000 pictures of instants. Round edges need
 // fewer.
 constexpr double kLeastMoments = 16;
 constexpr double kLeastMomentsOfDiscs = 8;
