@@ -253,8 +253,8 @@ TEST(BodyPictures, SayWhatIsNotCertain) {
 
 /// What is drawn in the window of discs, at an instant.
 std::vector<DrawItem> window_at(const std::string& text, const Rational& time) {
-  const DrawList frame =
-      Film(script_of("view.theme = 'lecture'\nview.shutter = 0\n" + text)).still(Instant(time));
+  const Script script = script_of("view.theme = 'lecture'\nview.shutter = 0\n" + text);
+  const DrawList frame = run_of(std::get<Scene>(script)).still(Instant(time));
   return std::get<GroupItem>(frame.items.front()).list->items;
 }
 

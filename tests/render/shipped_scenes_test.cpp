@@ -12,6 +12,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/text.hpp"
@@ -159,18 +160,18 @@ TEST(ShippedScenes, ShowTheNumbersThatTheyName) {
   }
 }
 
-/// The lines of text of a picture, by what they belong to and their baseline.
-using Lines = std::map<std::pair<std::uint32_t, long>, std::string>;
+/// The lines of text of a picture, by what they belong to and their baseline in their part of it.
+using Lines = std::map<std::tuple<double, std::uint32_t, long>, std::string>;
 
-void add_lines(const std::vector<DrawItem>& items, long below, Lines& lines) {
+void add_lines(const std::vector<DrawItem>& items, const Point& origin, Lines& lines) {
   for (const DrawItem& item : items) {
     if (const auto* group = std::get_if<GroupItem>(&item)) {
-      add_lines(group->list->items, below + std::lround(group->bounds.y), lines);
+      add_lines(group->list->items, {group->bounds.x, origin.y + group->bounds.y}, lines);
     } else if (const auto* plate = std::get_if<PlateItem>(&item)) {
-      add_lines(plate->plate->items, below + std::lround(plate->origin.y), lines);
+      add_lines(plate->plate->items, {origin.x, origin.y + plate->origin.y}, lines);
     } else if (const auto* text = std::get_if<TextItem>(&item)) {
       const auto thing = static_cast<std::uint32_t>(text->id) / ids_from(1);
-      lines[{thing, below + std::lround(text->origin.y)}] += text->text;
+      lines[{origin.x, thing, std::lround(origin.y + text->origin.y)}] += text->text;
     }
   }
 }
@@ -178,7 +179,7 @@ void add_lines(const std::vector<DrawItem>& items, long below, Lines& lines) {
 /// What has to be read: words. A number among them may change meanwhile.
 std::set<std::string> sentences_of(const DrawList& picture) {
   Lines lines;
-  add_lines(picture.items, 0, lines);
+  add_lines(picture.items, {}, lines);
   std::set<std::string> sentences;
   for (const auto& [place, line] : lines) {
     const std::string words = std::regex_replace(line, std::regex("[0-9][0-9,.]*"), "#");

@@ -251,7 +251,7 @@ TEST(Facts, TellKeysAndBodies) {
   EXPECT_TRUE(has(
       "box.x = [0, 9]\ntime.to = 3\n[[body]]\nposition = 2\nvelocity = \"1/3\"\n",
       R"("bodies":{"count":1,"dimensions":1,"x":["0","9"],"y":["-inf","inf"],"rows":[)"
-      R"({"mass":"1","position":["2"],"velocity":["1/3"],"size":"1","color":"","label":""}]})"));
+      R"({"mass":"1","position":["2"],"velocity":["1/3"],"size":"1","color":"","label":"","path":false}]})"));
 }
 
 }  // namespace
