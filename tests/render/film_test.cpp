@@ -25,7 +25,8 @@ using testing_support::TemporaryFolder;
 class FilmTest : public testing::Test {
  protected:
   static Script read(const std::string& text) {
-    return testing_support::script_of("view.size = '160x90'\nview.fps = 10\n" + text);
+    return testing_support::script_of(
+        "view.size = '160x90'\nview.fps = 10\nview.theme = 'article'\n" + text);
   }
   static Film film(const std::string& text) { return Film(read(text)); }
 

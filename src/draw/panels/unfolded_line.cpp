@@ -73,10 +73,9 @@ Rational StraightLine::time_at(double position) const {
 UnfoldedMap::UnfoldedMap(const Scene& scene, const PairLog& log, const Rect& area, double margin_px,
                          double arc_px)
     : line_(log.blocks()),
-      area_(area),
+      most_area_(area),
       margin_px_(margin_px),
-      arc_px_(arc_px),
-      level_px_(kLevel * area.height),
+      most_arc_px_(arc_px),
       span_(span_of(scene, log)) {
   place_corner(log);
   if (!line_.moves() || line_.rounding() * scale_ <= kMostRounding_px) return;
@@ -92,6 +91,9 @@ Rational UnfoldedMap::time_of(const PairLog& log, const PairCollision& collision
 
 /// The corner and all of the line that is shown are in the area.
 void UnfoldedMap::place_corner(const PairLog& log) {
+  area_ = most_area_;
+  level_px_ = kLevel * area_.height;
+  has_true_angles_ = false;
   double from = line_.at(span_.from);
   double to = line_.at(span_.to);
   if (line_.moves() && !line_.meets_corner()) {
@@ -132,7 +134,7 @@ bool UnfoldedMap::place_with_true_angles(double first, double last) {
   corner_x_ = area_.x + area_.width / 2 - (low + high) / 2 * scale;
   // The angle's name has room between the arc and the first crossing.
   const double crossing = std::max(kLeastArc * level_px_, kArcShare * std::min(-low, high) * scale);
-  arc_px_ = std::min({arc_px_, crossing, area_.height});
+  arc_px_ = std::min({most_arc_px_, crossing, area_.height});
   // What is left of a high panel is below it.
   area_.height = std::min(area_.height, kAboveArc * arc_px_);
   has_true_angles_ = true;

@@ -108,11 +108,13 @@ class UnfoldedMap {
   double reach_px(double least_apart_px) const;
 
   StraightLine line_;
+  Rect most_area_;
   Rect area_;
   double margin_px_;
-  double arc_px_;
+  double most_arc_px_;
+  double arc_px_ = 0;
   bool has_true_angles_ = false;
-  double level_px_;  ///< height of the line above the base
+  double level_px_ = 0;  ///< height of the line above the base
   Span span_;
   double corner_x_ = 0;
   double scale_ = 1;  ///< pixels per unit, across
