@@ -211,12 +211,13 @@ TEST(BodyPictures, AxesHaveNames) {
 
 /// A wedge is flat: beside a diagram it would be small.
 TEST(BodyPictures, DiagramsAreBelowAFlatView) {
-  const auto window_width = [](const char* top) {
-    const Film film(shipped("wedge", {{"view.size", "1280x720"}, {"view.y", top}}));
-    return std::get<GroupItem>(film.frame(0).items.front()).bounds.width;
+  const auto window_width = [](int top) {
+    Scene scene = shipped("wedge", {{"view.size", "1280x720"}});
+    scene.view.y.high = top;
+    return std::get<GroupItem>(Film(scene).frame(0).items.front()).bounds.width;
   };
-  EXPECT_EQ(window_width("-0.3,2"), 1280);
-  EXPECT_LT(window_width("-0.3,8"), 800) << "this view is less than twice as wide as high";
+  EXPECT_EQ(window_width(2), 1280);
+  EXPECT_LT(window_width(8), 800) << "this view is less than twice as wide as high";
 }
 
 /// Discs that touch when the scene begins collide then if they approach each other.
