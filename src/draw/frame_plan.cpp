@@ -303,8 +303,9 @@ class FramePlanner {
   /// Where there are diagrams, the stage is as high as it has to be.
   /// @param room_px  for both
   double stage_height(double room_px) {
-    double height = show_.panels.size() == 1 ? kStripStage : kPlainStage;
-    if (show_.has(Overlay::velocities)) height += kArrowRoom;
+    const bool has_arrows = show_.has(Overlay::velocities);
+    double height = show_.panels.size() == 1 && !has_arrows ? kStripStage : kPlainStage;
+    if (has_arrows) height += kArrowRoom;
     if (has_masses(context_.scene)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;
     height *= sizes_.short_side;

@@ -197,7 +197,7 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
 TEST(BodyPictures, AxesHaveNames) {
   const auto texts_of = [](const std::string& name, const Settings& settings) {
     std::set<std::string> texts;
-    for (const TextItem& text : items_of<TextItem>(Film(shipped(name, settings)).frame(0).items)) {
+    for (const TextItem& text : Shown(Film(shipped(name, settings)).frame(0)).texts) {
       if (text.id >= ItemId::panels) texts.insert(text.text);
     }
     return texts;
