@@ -197,7 +197,8 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
 TEST(BodyPictures, AxesHaveNames) {
   const auto texts_of = [](const std::string& name, const Settings& settings) {
     std::set<std::string> texts;
-    for (const TextItem& text : Shown(Film(shipped(name, settings)).frame(0)).texts) {
+    const Shown shown(Film(shipped(name, settings)).frame(0));
+    for (const TextItem& text : shown.texts) {
       if (text.id >= ItemId::panels) texts.insert(text.text);
     }
     return texts;
