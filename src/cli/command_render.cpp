@@ -33,6 +33,7 @@ void run_render(const Command& options, const SceneOptions& scene) {
   if (quiet) return;
   for (const std::string& note : rendered.notes) say("piblocks: note: {}\n", note);
   note_convention(job.script);
+  note_contrast(job.script);
 }
 
 void add_encoder_options(Command& command) {
