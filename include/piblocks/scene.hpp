@@ -23,7 +23,7 @@ enum class Theme {
   lecture,        ///< for a lecture hall: on near-black, in the colours of the diagrams
   lecture_light,  ///< the same on near-white
   chalkboard,     ///< chalk on dark green
-  dark,           ///< on near-black
+  dark,           ///< on neutral dark grey
   print,          ///< black and greys; the blocks differ in pattern
   colorblind      ///< blue and orange that all can tell apart, and that differ in pattern
 };

@@ -261,6 +261,39 @@ TEST(ContrastNotes, AreAtMostADozen) {
   EXPECT_EQ(notes[11].substr(0, 24), "body 12.color = #ffffff:");
 }
 
+/// What must be told from each other: marks and paths in diagrams.
+std::array<Color, 4> marks_of(const Palette& palette) {
+  return {palette.accent, palette.done, palette.blue.line, palette.red.line};
+}
+
+TEST(Theme, MarksDiffer) {
+  for (const Theme theme : kThemes) {
+    if (theme == Theme::print) continue;  // told by place, pattern and words
+    const auto marks = marks_of(palette_of(theme));
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_GT(difference(marks[i], marks[j]), 30) << exact_text(theme) << ' ' << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(Theme, MarksDifferForTheColourBlind) {
+  const auto marks = marks_of(palette_of(Theme::colorblind));
+  for (const Vision& vision : {kProtanopia, kDeuteranopia, kTritanopia}) {
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_GT(difference(marks[i], marks[j], vision), 20) << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(Theme, DarkIsNotTheLecture) {
+  const auto blackness = [](Theme theme) { return difference(palette_of(theme).background, {}); };
+  EXPECT_GT(blackness(Theme::dark), blackness(Theme::lecture) + 10);
+}
+
 TEST(Theme, PrintIsGrey) {
   const Palette palette = palette_of(Theme::print);
   for (const Color& color :
