@@ -23,7 +23,7 @@ enum class Theme {
   lecture,        ///< for a lecture hall: on near-black, in the colours of the diagrams
   lecture_light,  ///< the same on near-white
   chalkboard,     ///< chalk on dark green
-  dark,           ///< on near-black
+  dark,           ///< on neutral dark grey
   print,          ///< black and greys; the blocks differ in pattern
   colorblind      ///< blue and orange that all can tell apart, and that differ in pattern
 };
@@ -32,8 +32,26 @@ constexpr bool is_lecture(Theme theme) {
   return theme == Theme::lecture || theme == Theme::lecture_light;
 }
 
-/// What is behind everything: the theme's colour, or nothing.
+/// What is behind everything: the scene's colour or else the theme's, or nothing.
 enum class Background { opaque, transparent };
+
+/// Red, green and blue of sRGB.
+using RgbColor = std::array<std::uint8_t, 3>;
+
+/// Colours of the scene's own. Those that are not set follow from background and ink if one of them
+/// is set, and are the theme's otherwise.
+struct Colors {
+  std::optional<RgbColor> background = {};  ///< only where View::background is opaque
+  std::optional<RgbColor> ink = {};         ///< text, walls and floor
+  std::optional<RgbColor> accent = {};      ///< what is lit or marks the present
+  std::optional<RgbColor> muted = {};       ///< labels
+  std::optional<RgbColor> done = {};        ///< what says that no more collisions come
+  std::optional<RgbColor> grid = {};        ///< axes and rays
+};
+
+/// Reads "#1f77b4". @throws UsageError
+RgbColor parse_color(std::string_view text);
+std::string exact_text(const RgbColor& color);
 
 /// What is drawn over and around the blocks.
 enum class Overlay {
@@ -136,6 +154,7 @@ struct View {
   int short_side_px = 0;
   Theme theme = Theme::lecture_light;
   Background background = Background::opaque;
+  Colors colors = {};
 };
 
 inline constexpr int kMaxFrameRate = 1000;
@@ -224,9 +243,9 @@ struct Sound {
 
 /// How a body is drawn.
 struct BodyStyle {
-  std::optional<std::array<std::uint8_t, 3>> color = {};  ///< red, green, blue; else the theme's
-  std::string label = {};                                 ///< one line of UTF-8, on it or above it
-  bool path = false;  ///< of a disc: shows its path since time 0
+  std::optional<RgbColor> color = {};  ///< else the theme's
+  std::string label = {};              ///< one line of UTF-8, on it or above it
+  bool path = false;                   ///< of a disc: shows its path since time 0
 };
 
 struct Scene {

@@ -53,7 +53,7 @@ struct Segment {
 
 struct Storyboard {
   // For the whole film, whatever the scenes say.
-  View view = {};  ///< size, frame rate, theme and background
+  View view = {};  ///< size, frame rate, theme, background and colours
   Sound sound = {};
   Golden golden = {};
   std::vector<Segment> segments = {};  ///< 1 … kMaxSegments
@@ -70,14 +70,14 @@ inline constexpr std::size_t kMaxSegments = 100;
 /// What a film is made from.
 using Script = std::variant<Scene, Storyboard>;
 
-/// Size, frame rate, theme and background of the whole film.
+/// Size, frame rate, theme, background and colours of the whole film.
 const View& view_of(const Script& script);
 const Sound& sound_of(const Script& script);
 
 /// All scenes of the film, in order; valid as long as the script.
 std::vector<const Scene*> scenes_of(const Script& script);
 
-/// The scene as the film shows it: with the film's size, frame rate, theme and background.
+/// The scene as the film shows it: with the film's size, frame rate, theme, background and colours.
 Scene with_film_view(Scene scene, const View& film);
 
 /// Everything that is wrong with it, except what depends on the length of a run; empty if nothing

@@ -53,6 +53,7 @@ void run_page(const Command& options, const SceneOptions& scene) {
   check_stop(signals.token());
   out.finish();
   note_convention(script);
+  note_contrast(script);
 }
 
 }  // namespace

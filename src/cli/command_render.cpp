@@ -33,6 +33,7 @@ void run_render(const Command& options, const SceneOptions& scene) {
   if (quiet) return;
   for (const std::string& note : rendered.notes) say("piblocks: note: {}\n", note);
   note_convention(job.script);
+  note_contrast(job.script);
   if (report.is_seen() && !scene.has_scene())
     say("for a lecture: piblocks render why-pi -o why-pi.mp4\n");
 }

@@ -75,6 +75,7 @@ void run_still(const Command& options, const SceneOptions& scene_options) {
   const std::string output = output_of(options);
   render_still(script, *options.value("--at", parse_instant), output, signals.token());
   note_convention(script);
+  note_contrast(script);
   if (has_ending(output, ".svg") || has_ending(output, ".pdf")) note_sharp(script);
 }
 
@@ -90,6 +91,7 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
       scene, instants, output_of(options),
       [&](const Progress& progress) { report.update(progress); }, signals.token());
   note_convention(scene);
+  note_contrast(scene);
   note_sharp(scene);
 }
 

@@ -10,6 +10,7 @@
 
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
+#include "draw/look.hpp"
 #include "scene/shipped_scenes.hpp"
 #include "scene/toml_file.hpp"
 
@@ -127,6 +128,13 @@ void SceneOptions::add_sound() {
 void SceneOptions::add_show() {
   add_key("view.theme", "--theme", "NAME",
           "Colours and layout (default lecture-light):\n" + theme_names());
+  add_key("view.background", "--background", "COLOR",
+          "Colour behind everything, as '#fdf6e3'; what the following\n"
+          "options do not set suits it");
+  add_key("view.colors.ink", "--ink", "COLOR", "Colour of text, walls and floor");
+  add_key("view.colors.accent", "--accent", "COLOR", "Colour of what is lit or marks the present");
+  add_key("blue.color", "--blue-color", "COLOR", "Colour of blue");
+  add_key("red.color", "--red-color", "COLOR", "Colour of red");
   add_text("show.overlays", "--show", "NAMES",
            "What is drawn over the scene, with commas, or none:\n" + overlay_names() +
                "\n(default: digits of pi, and in the lecture themes masses)");
@@ -164,6 +172,8 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   refuse_both("--digits", "--mass-ratio", "the mass of red");
   refuse_both("--speed", "--duration", "the speed");
   refuse_both("--transparent", "--opaque", "the background");
+  refuse_both("--transparent", "--background", "the background");
+  refuse_both("--opaque", "--background", "the background");
   refuse_both("--sound", "--no-sound", "the sound");
   ScriptBuilder builder;
   if (const auto scene = command_.text(kScene)) {
@@ -204,6 +214,10 @@ void add_engine(Command& command) {
 
 void note_convention(const Script& script) {
   for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
+}
+
+void note_contrast(const Script& script) {
+  for (const std::string& note : contrast_notes(script)) say("piblocks: note: {}\n", note);
 }
 
 void note_sharp(const Script& script) {

@@ -78,6 +78,8 @@ void add_engine(Command& command);
 /// happen at once: their number then depends on a convention.
 /// @throws SceneError if problems_of() of the system is not empty.
 void note_convention(const Script& script);
+/// Says on standard error which own colours are hard to see.
+void note_contrast(const Script& script);
 /// Says that a picture without motion blur is asked for with it.
 void note_sharp(const Script& script);
 /// Prints a note on standard error if the order of pairs decided what happened up to this

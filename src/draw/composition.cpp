@@ -59,8 +59,8 @@ class Composer {
       : scene_(scene),
         is_article_(scene.view.theme == Theme::article && scene.system.dimensions == 1),
         colors_(colors_of(scene, two_blocks_of(log))),
-        palette_(log.pair() != nullptr ? palette_of(scene.view.theme, log.pair()->blocks(), colors_)
-                                       : palette_of(scene.view.theme)),
+        palette_(log.pair() != nullptr ? palette_of(scene.view, log.pair()->blocks(), colors_)
+                                       : palette_of(scene.view)),
         sizes_(scene.view),
         looks_{.scene = scene,
                .log = log,

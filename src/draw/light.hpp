@@ -9,14 +9,31 @@
 
 namespace piblocks {
 
-/// The transfer function of IEC 61966-2-1, from a table of four values a step, linear between them.
+/// x^2.4 for 0 < x <= 1, by Newton's method for the fifth root of x^2, from above. std::pow() would
+/// round differently on other machines.
+constexpr double power_2_4(double x) {
+  const double square = x * x;
+  double root = 1;
+  for (double next = root;; root = next) {
+    const double fourth = root * root * root * root;
+    next = (4 * root + square / fourth) / 5;
+    if (next >= root) return square * root;
+  }
+}
+
+/// The transfer function of IEC 61966-2-1. @param share  of the greatest sample, 0 … 1
+constexpr double light_of(double share) {
+  return share <= 0.04045 ? share / 12.92 : power_2_4((share + 0.055) / 1.055);
+}
+
+/// The same from a table of four values a step, linear between them.
 /// The error is less than 1/1000 of a step.
 class Light {
  public:
   Light() {
     for (std::size_t i = 0; i < table_.size(); ++i) {
       const double v = double(i) / double(255 * kPerStep);
-      table_[i] = v <= 0.04045 ? v / 12.92 : power_2_4((v + 0.055) / 1.055);
+      table_[i] = light_of(v);
     }
     for (std::size_t i = 0; i < units_.size(); ++i) {
       units_[i] = static_cast<std::int64_t>(of(double(i) / kUnitsPerStep) * kLightUnit);
@@ -57,18 +74,6 @@ class Light {
     }
     return static_cast<std::uint8_t>(sample);
   }
-  /// x^2.4 for 0 < x <= 1, by Newton's method for the fifth root of x^2, from above. std::pow()
-  /// would round differently on other machines.
-  static double power_2_4(double x) {
-    const double square = x * x;
-    double root = 1;
-    for (double next = root;; root = next) {
-      const double fourth = root * root * root * root;
-      next = (4 * root + square / fourth) / 5;
-      if (next >= root) return square * root;
-    }
-  }
-
   static constexpr std::size_t kPerStep = 4;
   static constexpr std::size_t kUnitsPerStep = 16;
   static constexpr std::size_t kParts = 4096;

@@ -1,8 +1,13 @@
 #include "draw/look.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+
+#include "draw/light.hpp"
 
 namespace piblocks {
 namespace {
@@ -83,17 +88,23 @@ constexpr Palette kChalkboard = {
 };
 
 constexpr Palette kDark = {
-    .background = {17, 18, 22},
-    .wall = {222, 224, 230},
-    .blue =
-        {{88, 146, 246}, {182, 210, 255}, {8, 16, 36}, {108, 162, 255}, {108, 162, 255}, 0, "blue"},
-    .red = {{240, 94, 84}, {255, 192, 184}, {40, 8, 6}, {246, 110, 100}, {246, 110, 100}, 0, "red"},
-    .text = {240, 241, 245},
-    .muted = {166, 170, 182},
-    .accent = {255, 206, 92},
-    .done = {112, 214, 140},
-    .grid = {92, 97, 110},
-    .shade = {66, 73, 92},
+    .background = {46, 46, 46},
+    .wall = {224, 224, 224},
+    .blue = {{104, 166, 232},
+             {190, 218, 248},
+             {10, 18, 30},
+             {111, 176, 240},
+             {111, 176, 240},
+             0,
+             "blue"},
+    .red =
+        {{236, 112, 96}, {252, 204, 196}, {40, 8, 6}, {240, 120, 102}, {240, 120, 102}, 0, "red"},
+    .text = {240, 240, 240},
+    .muted = {176, 176, 176},
+    .accent = {255, 184, 77},
+    .done = {120, 220, 170},
+    .grid = {122, 122, 122},
+    .shade = {94, 94, 94},
 };
 
 constexpr Palette kPrint = {
@@ -126,21 +137,30 @@ constexpr Palette kColorblind = {
             "right block"},
     .text = {16, 16, 16},
     .muted = {84, 84, 84},
-    .accent = {0, 96, 72},
-    .done = {0, 96, 72},
+    .accent = {108, 0, 216},
+    .done = {0, 84, 36},
     .grid = {144, 144, 144},
     .shade = {160, 184, 200},
 };
 
-/// Relative luminance (WCAG 2.1), to a twentieth: the sRGB curve as a product.
+// Least contrasts to the ground: WCAG 2.1, 1.4.3 and 1.4.11, and for filled areas.
+constexpr double kTextContrast = 4.5;
+constexpr double kLineContrast = 3;
+constexpr double kFillContrast = 2;
+
+/// Of each sample.
+constexpr std::array<double, 256> kLight = [] {
+  std::array<double, 256> light{};
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] = light_of(double(i) / 255);
+  return light;
+}();
+
+/// WCAG 2.1, "relative luminance".
 double luminance(const Color& color) {
-  const auto linear = [](int level) {
-    const double value = level / 255.0;
-    return value * value * (0.8 + 0.2 * value);
-  };
-  return 0.2126 * linear(color.red) + 0.7152 * linear(color.green) + 0.0722 * linear(color.blue);
+  return 0.2126 * kLight[color.red] + 0.7152 * kLight[color.green] + 0.0722 * kLight[color.blue];
 }
 
+/// WCAG 2.1, "contrast ratio".
 double contrast(const Color& a, const Color& b) {
   const auto [dark, light] = std::minmax({luminance(a), luminance(b)});
   return (light + 0.05) / (dark + 0.05);
@@ -153,13 +173,75 @@ Color mixed(const Color& from, const Color& to, double share) {
   return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
 }
 
-/// The colour, mixed with as little text colour as gives the least contrast to the background.
-Color readable(const Color& color, const Palette& palette, double least) {
-  for (double share = 0; share < 1; share += 0.1) {
-    const Color mix = mixed(color, palette.text, share);
-    if (contrast(mix, palette.background) >= least) return mix;
+/// The first colour on the way from one to another that has the least contrast to the ground; the
+/// other one if none has.
+Color readable(const Color& from, const Color& to, const Color& ground, double least) {
+  constexpr int kSteps = 50;
+  for (int i = 0; i < kSteps; ++i) {
+    const Color mix = mixed(from, to, double(i) / kSteps);
+    if (contrast(mix, ground) >= least) return mix;
   }
-  return palette.text;
+  return to;
+}
+
+Color black_or_white_on(const Color& ground) {
+  return contrast(kWhite, ground) > contrast(kBlack, ground) ? kWhite : kBlack;
+}
+
+Color color_of(const RgbColor& color) { return {color[0], color[1], color[2]}; }
+
+/// A filled area that is seen on the ground: on the way to the text, or away from it where only
+/// that leaves the text on it enough contrast.
+Color shade_on(const Color& ground, const Color& text) {
+  const Color nearer = readable(ground, text, ground, kFillContrast);
+  if (contrast(text, nearer) >= kTextContrast) return nearer;
+  const Color extreme = luminance(text) < luminance(ground) ? kWhite : kBlack;
+  const Color farther = readable(ground, extreme, ground, kFillContrast);
+  return contrast(farther, ground) >= kFillContrast ? farther : nearer;
+}
+
+/// Whether text can be read, also on filled areas.
+bool is_read(const Color& text, const Color& ground) {
+  return contrast(text, ground) >= kTextContrast &&
+         contrast(text, shade_on(ground, text)) >= kTextContrast;
+}
+
+/// The palette on another ground or with another ink: its colours, mixed with as much ink as makes
+/// them seen; labels and axes between the two. On a light ground instead of a dark one, or the
+/// other way round, the colours are those of a lecture, unless blocks have bars.
+Palette adapted(Palette palette, const Colors& own) {
+  const Color ground = own.background ? color_of(*own.background) : palette.background;
+  const Color extreme = black_or_white_on(ground);
+  if (extreme != black_or_white_on(palette.background) && palette.red.bars == 0) {
+    palette = extreme == kWhite ? kLecture : kLectureLight;
+  }
+  palette.background = ground;
+  if (own.ink) {
+    palette.text = palette.wall = color_of(*own.ink);
+  } else if (!is_read(palette.text, ground)) {
+    palette.text = palette.wall = extreme;
+  }
+  const auto seen = [&](const Color& color, double least) {
+    return readable(color, palette.text, ground, least);
+  };
+  palette.muted = seen(mixed(palette.text, ground, 0.4), kTextContrast);
+  palette.grid = seen(mixed(palette.text, ground, 0.6), kLineContrast);
+  palette.shade = shade_on(ground, palette.text);
+  palette.accent = seen(palette.accent, kTextContrast);
+  palette.done = seen(palette.done, kTextContrast);
+  for (BlockColors* block : {&palette.blue, &palette.red}) {
+    block->fill = seen(block->fill, kFillContrast);
+    block->edge = seen(block->edge, kLineContrast);
+    if (block->bars > 0 && contrast(block->edge, block->fill) < kLineContrast) {
+      block->edge = palette.text;
+    }
+    if (contrast(block->text, block->fill) < kTextContrast) {
+      block->text = black_or_white_on(block->fill);
+    }
+    block->line = seen(block->line, kLineContrast);
+    block->label = seen(block->label, kTextContrast);
+  }
+  return palette;
 }
 
 /// Of more bodies than this all but the heaviest have one colour.
@@ -185,9 +267,16 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
   Color edge = mixed(fill, is_dark ? kWhite : kBlack, share);
   if (theme == Theme::print) edge = palette.wall;
   if (is_lecture(theme) || theme == Theme::article) edge = fill;
-  const Color text = contrast(fill, kWhite) > contrast(fill, kBlack) ? kWhite : kBlack;
-  const Color line = readable(fill, palette, 3.2);
-  return {fill, readable(edge, palette, 3.2), text, line, readable(fill, palette, 4.8), 0, ""};
+  const auto seen = [&](const Color& color, double least) {
+    return readable(color, palette.text, palette.background, least);
+  };
+  return {fill,
+          seen(edge, kLineContrast),
+          black_or_white_on(fill),
+          seen(fill, kLineContrast),
+          seen(fill, kTextContrast),
+          0,
+          ""};
 }
 
 /// Of each body, the place of its colour among blue, red and further ones. See colors_of().
@@ -243,15 +332,22 @@ void name(BlockColors& blue, BlockColors& red, const TwoBlocks& blocks) {
 
 }  // namespace
 
-Palette palette_of(Theme theme) {
+Palette palette_of(Theme theme, const Colors& own) {
   // In the order of Theme.
   constexpr std::array kPalettes = {kArticle, kLecture, kLectureLight, kChalkboard,
                                     kDark,    kPrint,   kColorblind};
-  return kPalettes.at(static_cast<std::size_t>(theme));
+  Palette palette = kPalettes.at(static_cast<std::size_t>(theme));
+  if (own.background || own.ink) palette = adapted(palette, own);
+  if (own.accent) palette.accent = color_of(*own.accent);
+  if (own.muted) palette.muted = color_of(*own.muted);
+  if (own.done) palette.done = color_of(*own.done);
+  if (own.grid) palette.grid = color_of(*own.grid);
+  return palette;
 }
 
-Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<BlockColors>& colors) {
-  Palette palette = palette_of(theme);
+Palette palette_of(const View& view, const TwoBlocks& blocks,
+                   const std::vector<BlockColors>& colors) {
+  Palette palette = palette_of(view);
   palette.blue = colors[blocks.blue_id];
   palette.red = colors[blocks.red_id];
   return palette;
@@ -259,7 +355,7 @@ Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<Block
 
 std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) {
   const Theme theme = scene.view.theme;
-  const Palette palette = palette_of(theme);
+  const Palette palette = palette_of(scene.view);
   const std::vector<Body>& all = scene.system.bodies;
   const bool is_dark = luminance(palette.background) < 0.2;
   const bool has_bars = palette.red.bars > 0;
@@ -274,8 +370,7 @@ std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) 
   colors.reserve(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (const auto& color = scene.styles[i].color) {
-      const auto& [red, green, blue] = *color;
-      colors.push_back(colors_from({red, green, blue}, theme, palette));
+      colors.push_back(colors_from(color_of(*color), theme, palette));
       if (has_bars) colors.back().bars = kBars.at(i % kBars.size());
     } else if (!all[i].mass) {
       colors.push_back(fixed);
@@ -287,9 +382,41 @@ std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) 
   return colors;
 }
 
+std::vector<std::string> contrast_notes(const Script& script) {
+  constexpr std::size_t kMostNotes = 12;
+  const View& view = view_of(script);
+  const Color ground = palette_of(view).background;
+  std::vector<std::string> notes;
+  if (view.background == Background::transparent) return notes;
+  const auto check = [&](std::string_view key, const std::optional<RgbColor>& color,
+                         const char* what, double least) {
+    if (!color || notes.size() == kMostNotes) return;
+    const double measured = contrast(color_of(*color), ground);
+    if (measured >= least) return;
+    std::string note =
+        fmt::format("{} = {}: its contrast to the background {} is {:.1f}; {} needs {}", key,
+                    exact_text(*color), exact_text(RgbColor{ground.red, ground.green, ground.blue}),
+                    std::floor(measured * 10) / 10, what, least);
+    if (std::ranges::count(notes, note) == 0) notes.push_back(std::move(note));
+  };
+  check("view.colors.ink", view.colors.ink, "text", kTextContrast);
+  check("view.colors.accent", view.colors.accent, "text", kTextContrast);
+  check("view.colors.muted", view.colors.muted, "text", kTextContrast);
+  check("view.colors.done", view.colors.done, "text", kTextContrast);
+  check("view.colors.grid", view.colors.grid, "a line", kLineContrast);
+  for (const Scene* scene : scenes_of(script)) {
+    for (std::size_t i = 0; i < scene->styles.size(); ++i) {
+      const std::string body = has_short_names(scene->system) ? scene->system.bodies[i].name
+                                                              : fmt::format("body {}", i + 1);
+      check(body + ".color", scene->styles[i].color, "a body", kFillContrast);
+    }
+  }
+  return notes;
+}
+
 std::optional<Color> background_of(const View& view) {
   if (view.background == Background::transparent) return std::nullopt;
-  return palette_of(view.theme).background;
+  return palette_of(view).background;
 }
 
 }  // namespace piblocks

@@ -1,15 +1,17 @@
 // The look of every picture: colours, sizes of type, lines and margins.
-// In: a theme, a frame or an area of it. Out: a palette, lengths in pixels.
+// In: a theme, own colours, a frame or an area of it. Out: a palette, lengths in pixels.
 // An overlay or panel has its own proportions in its file.
 #pragma once
 
 #include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
 #include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "draw/draw_list.hpp"
@@ -45,10 +47,13 @@ struct Palette {
   Color shade;   ///< of filled areas in diagrams: no text
 };
 
-Palette palette_of(Theme theme);
+/// @param own  stays as it is; what follows from it keeps to these contrasts where it can
+Palette palette_of(Theme theme, const Colors& own = {});
+inline Palette palette_of(const View& view) { return palette_of(view.theme, view.colors); }
 /// The same for two blocks beside something immovable, which are blue and red in diagrams.
 /// @param colors  of the bodies
-Palette palette_of(Theme theme, const TwoBlocks& blocks, const std::vector<BlockColors>& colors);
+Palette palette_of(const View& view, const TwoBlocks& blocks,
+                   const std::vector<BlockColors>& colors);
 
 /// Of each body: the colour that the scene gives it; else by mass: blue for the lightest, red for
 /// the heaviest, further ones for those between. Where all masses are equal these colours follow in
@@ -61,6 +66,10 @@ std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks);
 
 /// Nothing if the view is transparent.
 std::optional<Color> background_of(const View& view);
+
+/// Which colours of a script's own have less contrast to the background than Palette says, a line
+/// each, of a dozen at most. Of what is behind a transparent picture nothing is known.
+std::vector<std::string> contrast_notes(const Script& script);
 
 /// The typeface of plain text.
 inline Face text_face_of(Theme theme) {

@@ -108,7 +108,7 @@ CaptionSize caption_size(const std::vector<CaptionedPicture>& pictures, const Fo
 
 DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
   const Font font(text_face_of(view.theme));
-  const Palette palette = palette_of(view.theme);
+  const Palette palette = palette_of(view);
   const double measure = Sizes(view).short_side;
   const double inner_px = view.width_px - 2 * style::kCardMargin * measure;
 
@@ -222,7 +222,7 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
     empty_.items.emplace_back(
         RectangleItem{nth(ItemId::compared, static_cast<std::size_t>(i)),
                       to_rect(place(at + cell_px, margin, line_px, breadth - 2 * margin)),
-                      palette_of(view.theme).grid, std::nullopt});
+                      palette_of(view).grid, std::nullopt});
   }
 }
 

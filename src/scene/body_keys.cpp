@@ -32,23 +32,6 @@ ExactVector parse_vector(const Values& values, ReadBody& body) {
   return {parse_rational(values[0]), 0};
 }
 
-std::uint8_t hexadecimal(std::string_view two) {
-  const auto digit = [](char c) -> int {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    throw UsageError("must be a colour as \"#1f77b4\"");
-  };
-  return static_cast<std::uint8_t>(16 * digit(two[0]) + digit(two[1]));
-}
-
-std::array<std::uint8_t, 3> parse_color(const std::string& text) {
-  if (text.size() != 7 || text[0] != '#') throw UsageError("must be a colour as \"#1f77b4\"");
-  const std::string_view digits = std::string_view(text).substr(1);
-  return {hexadecimal(digits.substr(0, 2)), hexadecimal(digits.substr(2, 2)),
-          hexadecimal(digits.substr(4, 2))};
-}
-
 std::string parse_label(const std::string& text) {
   SceneProblems problems;
   check_line("label", text, problems);
@@ -282,9 +265,7 @@ Values coordinates_of(const ExactVector& vector, int dimensions) {
 }
 
 std::string color_text(const BodyStyle& style) {
-  if (!style.color) return {};
-  const auto& [red, green, blue] = *style.color;
-  return fmt::format("#{:02x}{:02x}{:02x}", red, green, blue);
+  return style.color ? exact_text(*style.color) : "";
 }
 
 std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& scene) {

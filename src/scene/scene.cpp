@@ -43,6 +43,8 @@ void check_view(const View& view, SceneProblems& problems) {
   check_range("view.x", view.x, problems);
   check_range("view.y", view.y, problems);
   check_size("view.size", {view.width_px, view.height_px}, problems);
+  problems.require(!view.colors.background || view.background == Background::opaque,
+                   "view.background", "is transparent and has a colour; leave one of them out");
   // Codecs and containers count time in 32-bit fractions.
   constexpr long kMaxTerm = 1'000'000;
   const Rational& rate = view.frame_rate;

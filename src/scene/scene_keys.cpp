@@ -62,6 +62,7 @@ void read(Theme& target, const Values& values) { target = parse_theme(single(val
 void read(std::string& target, const Values& values) { target = single(values); }
 void read(Values& target, const Values& values) { target = list_of(values); }
 void read(std::optional<FrameSize>& target, const Values& values) { target = parse_size(values); }
+void read(std::optional<RgbColor>& target, const Values& v) { target = parse_color(single(v)); }
 void read(std::optional<Loupe>& target, const Values& v) { target = parse_loupe(single(v)); }
 void read(std::vector<Freeze>& list, const Values& v) { list = parse_list(v, parse_freeze); }
 void read(std::optional<std::vector<Overlay>>& list, const Values& values) {
@@ -73,13 +74,6 @@ void read(Range& target, const Values& values) {
   target = {parse_rational(values[0]), parse_rational(values[1])};
 }
 void read(bool& target, const Values& values) { target = parse_bool(values); }
-void read(Background& target, const Values& values) {
-  const std::string& name = single(values);
-  if (name != "opaque" && name != "transparent") {
-    throw UsageError(must_be_one_of(name, {"opaque", "transparent"}));
-  }
-  target = name == "opaque" ? Background::opaque : Background::transparent;
-}
 
 Values texts_of(const Rational& value) { return {value.get_str()}; }
 Values texts_of(const Instant& value) { return {exact_text(value)}; }
@@ -88,9 +82,7 @@ Values texts_of(const std::string& value) { return {value}; }
 Values texts_of(const Values& value) { return value; }
 Values texts_of(const Range& value) { return {value.low.get_str(), value.high.get_str()}; }
 Values texts_of(bool value) { return {value ? "true" : "false"}; }
-Values texts_of(Background value) {
-  return {value == Background::opaque ? "opaque" : "transparent"};
-}
+Values texts_of(const RgbColor& value) { return {exact_text(value)}; }
 Values texts_of(const Loupe& value) { return {exact_text(value)}; }
 Values texts_of(const FrameSize& value) {
   return {fmt::format("{}x{}", value.width_px, value.height_px)};
@@ -150,6 +142,15 @@ constexpr SceneKey red_key(const char* name) {
   return short_key<BodyValue<1, Member>>(name);
 }
 
+/// The color of blue or red.
+template <std::size_t Index>
+constexpr SceneKey color_key(const char* name) {
+  return {name, [](Scene& scene, const Values& values) { read(scene.styles[Index].color, values); },
+          [](const Scene& scene) {
+            return has_short_names(scene.system) ? texts_of(scene.styles[Index].color) : Values();
+          }};
+}
+
 void set_size(Scene& scene, const Values& values) {
   const FrameSize size = parse_size(values);
   scene.view.width_px = size.width_px;
@@ -157,6 +158,24 @@ void set_size(Scene& scene, const Values& values) {
 }
 Values size_of(const Scene& scene) {
   return texts_of(FrameSize{scene.view.width_px, scene.view.height_px});
+}
+
+void set_background(Scene& scene, const Values& values) {
+  const std::string& text = single(values);
+  View& view = scene.view;
+  view.background = text == "transparent" ? Background::transparent : Background::opaque;
+  view.colors.background.reset();
+  if (text.starts_with('#')) {
+    read(view.colors.background, values);
+  } else if (text != "opaque" && text != "transparent") {
+    throw UsageError(must_be_one_of(
+        text, {"opaque", "transparent", "a colour as \"#1f77b4\": # and six hexadecimal digits"}));
+  }
+}
+Values background_of(const Scene& scene) {
+  const View& view = scene.view;
+  if (view.background == Background::transparent) return {"transparent"};
+  return view.colors.background ? texts_of(*view.colors.background) : Values{"opaque"};
 }
 
 /// Replaces a duration that was set before.
@@ -196,10 +215,12 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     blue_key<&Body::position>("blue.position"),
     blue_key<&Body::velocity>("blue.velocity"),
     blue_key<&Body::size>("blue.width"),
+    color_key<0>("blue.color"),
     red_key<&Body::mass>("red.mass"),
     red_key<&Body::position>("red.position"),
     red_key<&Body::velocity>("red.velocity"),
     red_key<&Body::size>("red.width"),
+    color_key<1>("red.color"),
     key<&Scene::system, &System::restitution>("blocks.restitution"),
     key<&Scene::system, &System::wall_restitution>("wall.restitution"),
     key<&Scene::view, &View::x>("view.x"),
@@ -207,8 +228,13 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     SceneKey{"view.size", set_size, size_of},
     key<&Scene::view, &View::frame_rate>("view.fps"),
     key<&Scene::view, &View::shutter>("view.shutter"),
-    key<&Scene::view, &View::background>("view.background"),
+    SceneKey{"view.background", set_background, background_of},
     key<&Scene::view, &View::theme>("view.theme"),
+    key<&Scene::view, &View::colors, &Colors::ink>("view.colors.ink"),
+    key<&Scene::view, &View::colors, &Colors::accent>("view.colors.accent"),
+    key<&Scene::view, &View::colors, &Colors::muted>("view.colors.muted"),
+    key<&Scene::view, &View::colors, &Colors::done>("view.colors.done"),
+    key<&Scene::view, &View::colors, &Colors::grid>("view.colors.grid"),
     key<&Scene::time, &TimeSpan::from>("time.from"),
     key<&Scene::time, &TimeSpan::to>("time.to"),
     SceneKey{"time.speed", set_speed, speed_of},
@@ -244,7 +270,8 @@ bool is_short_key(std::string_view key) {
 bool is_film_key(std::string_view key) {
   constexpr std::array<std::string_view, 5> kOfFilm = {"view.size", "view.fps", "view.background",
                                                        "view.theme", "sound.on"};
-  return key.starts_with("golden.") || std::ranges::count(kOfFilm, key) > 0;
+  return key.starts_with("golden.") || key.starts_with("view.colors.") ||
+         std::ranges::count(kOfFilm, key) > 0;
 }
 
 Values list_of(const Values& values) {

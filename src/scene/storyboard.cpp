@@ -94,6 +94,7 @@ Scene with_film_view(Scene scene, const View& film) {
   scene.view.frame_rate = film.frame_rate;
   scene.view.background = film.background;
   scene.view.theme = film.theme;
+  scene.view.colors = film.colors;
   return scene;
 }
 

@@ -124,21 +124,25 @@ class Reader {
 
   TomlTable table_of(const toml::table& table) const {
     TomlTable result{{}, table.source().begin.line};
-    for (const auto& [name, node] : table) {
-      const toml::table* inner = node.as_table();
-      if (inner == nullptr) {
-        result.entries.push_back(entry_of(std::string(name.str()), node));
-        continue;
-      }
-      for (const auto& [key, value] : *inner) {
-        result.entries.push_back(entry_of(fmt::format("{}.{}", name.str(), key.str()), value));
-      }
-    }
+    add_entries(table, "", result.entries);
     std::ranges::stable_sort(result.entries, {}, &TomlEntry::line);
     return result;
   }
 
  private:
+  /// Keys of tables in the table begin with the names of these. @param before  such as "view."
+  void add_entries(const toml::table& table, const std::string& before,
+                   std::vector<TomlEntry>& entries) const {
+    for (const auto& [name, node] : table) {
+      const std::string key = fmt::format("{}{}", before, name.str());
+      if (const toml::table* inner = node.as_table()) {
+        add_entries(*inner, key + '.', entries);
+      } else {
+        entries.push_back(entry_of(key, node));
+      }
+    }
+  }
+
   std::optional<std::string> scalar_text(const toml::node& node) const {
     if (const auto* text = node.as_string()) return text->get();
     if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());

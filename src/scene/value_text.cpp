@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -122,6 +124,26 @@ std::string exact_text(Split split) { return text_of(kSplits, split); }
 std::string theme_names() { return names_of(kThemes); }
 std::string overlay_names() { return names_of(kOverlays); }
 std::string panel_names() { return names_of(kPanels); }
+
+RgbColor parse_color(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
+  const bool has_digits =
+      text.starts_with('#') && text.find_first_not_of(kDigits, 1) == std::string_view::npos;
+  if (text.size() != 7 || !has_digits) {
+    throw UsageError("must be a colour as \"#1f77b4\": # and six hexadecimal digits");
+  }
+  const auto sample = [&](std::size_t begin) {
+    const std::string_view two = text.substr(begin, 2);
+    std::uint8_t value = 0;
+    std::from_chars(two.data(), two.data() + two.size(), value, 16);
+    return value;
+  };
+  return {sample(1), sample(3), sample(5)};
+}
+
+std::string exact_text(const RgbColor& color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
+}
 
 SlowMotion parse_slow_motion(std::string_view text) {
   const auto parts = split<3>(text, "FROM:TO:FACTOR, as turn-0.3:turn+0.3:10");

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
 #include "core/text.hpp"
+#include "draw/look.hpp"
 #include "scene/body_keys.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
@@ -90,6 +93,7 @@ std::string keys_json(Scene scene, bool of_film) {
 
 std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
   std::vector<std::string> notes = convention_notes(scene);
+  std::ranges::move(contrast_notes(scene), std::back_inserter(notes));
   const Log& log = run.log();
   const Integer last = has_span(scene, log) ? log.count_at(span_of(scene, log).to) : Integer(0);
   if (auto note = tie_note(log, last)) notes.push_back(*std::move(note));

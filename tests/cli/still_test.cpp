@@ -144,6 +144,17 @@ TEST_F(StillTest, LogosOfAnyShapeAreShownOrRefused) {
   expect_refusal(logo("640x360") + Arguments{"--size", "30x16"}, "show.logo: a picture of 640x360");
 }
 
+TEST_F(StillTest, AColourThatIsHardToSeeIsSaidAndDrawn) {
+  const Arguments still{"still",   "--at", "3",     "--size",   "64x36",   "--background",
+                        "#fdf6e3", "-o",   "a.png", "--accent", "#9a5300", "--blue-color"};
+  EXPECT_EQ(piblocks(still + Arguments{"#268bd2"}).err, "");
+  const CommandResult pale = piblocks(still + Arguments{"#fdf6e3"});
+  EXPECT_EQ(pale.exit_code, 0);
+  EXPECT_EQ(pale.err,
+            "piblocks: note: blue.color = #fdf6e3: its contrast to the background #fdf6e3 is 1.0; "
+            "a body needs 2\n");
+}
+
 /// A still of 20 digits is not 3e19 collisions away. The bound only tells seconds from years.
 TEST_F(StillTest, TakesNoLongerForMoreDigits) {
   for (const char* digits : {"3", "9", "20"}) {

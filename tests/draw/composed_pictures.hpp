@@ -75,7 +75,7 @@ struct Drawing {
   explicit Drawing(const Scene& scene)
       : log(make_pair_log(scene.system)),
         colors(colors_of(scene, &log->blocks())),
-        palette(palette_of(scene.view.theme, log->blocks(), colors)),
+        palette(palette_of(scene.view, log->blocks(), colors)),
         sizes(scene.view),
         context{
             {scene, *log, palette, colors, fonts, fonts.of(text_face_of(scene.view.theme)), sizes},

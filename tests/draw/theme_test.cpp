@@ -53,6 +53,39 @@ TEST(Theme, EverythingStandsOutFromItsGround) {
   }
 }
 
+std::vector<Color> grounds() {
+  constexpr int kStep = 17;
+  std::vector<Color> all;
+  for (int red = 0; red < 256; red += kStep) {
+    for (int green = 0; green < 256; green += kStep) {
+      for (int blue = 0; blue < 256; blue += kStep) {
+        all.push_back({std::uint8_t(red), std::uint8_t(green), std::uint8_t(blue)});
+      }
+    }
+  }
+  return all;
+}
+
+RgbColor rgb(const Color& color) { return {color.red, color.green, color.blue}; }
+
+/// Black or white has a contrast of 4.58 at least to any ground, so that text always can.
+TEST(Theme, EverythingStandsOutFromAnyGround) {
+  for (const Theme theme : kThemes) {
+    for (const Color& ground : grounds()) {
+      SCOPED_TRACE(exact_text(theme) + " on " + exact_text(rgb(ground)));
+      const Palette palette = palette_of(theme, {.background = rgb(ground)});
+      ASSERT_EQ(palette.background, ground);
+      for (const auto& [name, color, below, least] : parts_of(palette)) {
+        // Bars stand out from the block as well as they can: the block stands out from the ground.
+        const bool is_bars = std::string_view(name) == "bars";
+        ASSERT_GE(contrast(color, below), is_bars ? 2 : least) << name;
+      }
+      // Those of print are greys, and told by their bars.
+      ASSERT_TRUE(palette.blue.fill != palette.red.fill || palette.red.bars > 0);
+    }
+  }
+}
+
 Scene scene_of(std::size_t bodies, Theme theme) {
   Scene scene;
   scene.system = {1, std::vector<Body>(bodies), {}};
@@ -160,7 +193,7 @@ TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
     scene.system = system_of(blocks);
     scene.styles[0] = style;
     scene.view.theme = theme;
-    return std::string(palette_of(theme, blocks, colors_of(scene, &blocks)).red.full_name);
+    return std::string(palette_of(scene.view, blocks, colors_of(scene, &blocks)).red.full_name);
   };
   System system = article_system(2);
   EXPECT_EQ(name_of_red(Theme::print, *two_blocks_of(system)), "large block");
@@ -174,6 +207,120 @@ TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
   EXPECT_EQ(name_of_red(Theme::lecture, equal), "red");
   const BodyStyle green{std::array<std::uint8_t, 3>{0, 200, 0}, {}};
   EXPECT_EQ(name_of_red(Theme::lecture, equal, green), "left block");
+}
+
+TEST(Theme, OwnColoursStay) {
+  const Colors own{.background = RgbColor{253, 246, 227},
+                   .ink = RgbColor{7, 54, 66},
+                   .accent = RgbColor{253, 246, 200},  // hardly seen
+                   .muted = RgbColor{88, 110, 117},
+                   .done = RgbColor{133, 153, 0},
+                   .grid = RgbColor{147, 161, 161}};
+  for (const Theme theme : kThemes) {
+    const Palette palette = palette_of(theme, own);
+    EXPECT_EQ(rgb(palette.background), own.background);
+    EXPECT_EQ(rgb(palette.text), own.ink);
+    EXPECT_EQ(rgb(palette.wall), own.ink);
+    EXPECT_EQ(rgb(palette.accent), own.accent);
+    EXPECT_EQ(rgb(palette.muted), own.muted);
+    EXPECT_EQ(rgb(palette.done), own.done);
+    EXPECT_EQ(rgb(palette.grid), own.grid);
+  }
+}
+
+TEST(Theme, AnAccentAloneChangesNothingElse) {
+  const Palette usual = palette_of(Theme::lecture);
+  const Palette own = palette_of(Theme::lecture, {.accent = RgbColor{255, 120, 0}});
+  EXPECT_EQ(own.accent, (Color{255, 120, 0}));
+  EXPECT_EQ(own.background, usual.background);
+  EXPECT_EQ(own.text, usual.text);
+  EXPECT_EQ(own.done, usual.done);
+  EXPECT_EQ(own.grid, usual.grid);
+  EXPECT_EQ(own.red.fill, usual.red.fill);
+}
+
+TEST(Theme, AnInkAloneIsMixedWithTheThemesGround) {
+  const Color ink{120, 255, 120};
+  const Palette palette = palette_of(Theme::lecture, {.ink = rgb(ink)});
+  EXPECT_EQ(palette.background, palette_of(Theme::lecture).background);
+  for (const Color& mixed : {palette.muted, palette.grid, palette.shade}) {
+    EXPECT_GT(mixed.green, mixed.red) << "green as the ink";
+    EXPECT_LT(mixed.green, ink.green);
+  }
+}
+
+std::vector<std::string> notes_of(const Colors& own, const std::optional<RgbColor>& red = {}) {
+  Scene scene;
+  scene.view.colors = own;
+  scene.styles[1].color = red;
+  return contrast_notes(scene);
+}
+
+/// Greys on white: contrasts of 4.54 and 4.48 (#767676, #777777), 3.03 and 2.97 (#949494, #969696),
+/// 2.01 and 1.98 (#b7b7b7, #b8b8b8), by WCAG's formula.
+TEST(ContrastNotes, NameWhatIsHardToSee) {
+  const Colors seen{.ink = RgbColor{0x76, 0x76, 0x76}, .grid = RgbColor{0x94, 0x94, 0x94}};
+  EXPECT_EQ(notes_of(seen, RgbColor{0xb7, 0xb7, 0xb7}), std::vector<std::string>());
+  const Colors unseen{.ink = RgbColor{0x77, 0x77, 0x77}, .grid = RgbColor{0x96, 0x96, 0x96}};
+  EXPECT_EQ(notes_of(unseen, RgbColor{0xb8, 0xb8, 0xb8}),
+            (std::vector<std::string>{
+                "view.colors.ink = #777777: its contrast to the background #ffffff is 4.4; text "
+                "needs 4.5",
+                "view.colors.grid = #969696: its contrast to the background #ffffff is 2.9; a line "
+                "needs 3",
+                "red.color = #b8b8b8: its contrast to the background #ffffff is 1.9; a body needs "
+                "2"}));
+}
+
+TEST(ContrastNotes, AreOfTheBackgroundThatIsThere) {
+  const Colors on_navy{.background = RgbColor{11, 37, 69}, .accent = RgbColor{255, 230, 120}};
+  EXPECT_TRUE(notes_of(on_navy).empty());
+  EXPECT_EQ(notes_of({.accent = RgbColor{255, 230, 120}}).size(), 1U) << "on white";
+  Scene scene;
+  scene.view.colors.accent = RgbColor{255, 230, 120};
+  scene.view.background = Background::transparent;
+  EXPECT_TRUE(contrast_notes(scene).empty());
+}
+
+TEST(ContrastNotes, AreAtMostADozen) {
+  Scene scene = scene_of(40, Theme::article);
+  for (std::size_t i = 0; i < 40; ++i) scene.styles[i].color = RgbColor{255, 255, 255};
+  const std::vector<std::string> notes = contrast_notes(scene);
+  ASSERT_EQ(notes.size(), 12U);
+  EXPECT_EQ(notes[11].substr(0, 24), "body 12.color = #ffffff:");
+}
+
+/// What must be told from each other: marks and paths in diagrams.
+std::array<Color, 4> marks_of(const Palette& palette) {
+  return {palette.accent, palette.done, palette.blue.line, palette.red.line};
+}
+
+TEST(Theme, MarksDiffer) {
+  for (const Theme theme : kThemes) {
+    if (theme == Theme::print) continue;  // told by place, pattern and words
+    const auto marks = marks_of(palette_of(theme));
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_GT(difference(marks[i], marks[j]), 30) << exact_text(theme) << ' ' << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(Theme, MarksDifferForTheColourBlind) {
+  const auto marks = marks_of(palette_of(Theme::colorblind));
+  for (const Vision& vision : {kProtanopia, kDeuteranopia, kTritanopia}) {
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_GT(difference(marks[i], marks[j], vision), 20) << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(Theme, DarkIsNotTheLecture) {
+  const auto blackness = [](Theme theme) { return difference(palette_of(theme).background, {}); };
+  EXPECT_GT(blackness(Theme::dark), blackness(Theme::lecture) + 10);
 }
 
 TEST(Theme, PrintIsGrey) {

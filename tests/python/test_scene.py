@@ -210,6 +210,18 @@ def test_names_are_suggested():
         Scene.shipped("lectur")
 
 
+def test_own_colors():
+    scene = Scene(view={"background": "#FDF6E3", "colors": {"ink": "#073642"}}, red_color="#dc322f")
+    assert scene == Scene(view_background="#fdf6e3", view_colors_ink="#073642", red_color="#dc322f")
+    assert scene == Scene.from_toml_text(scene.to_toml()) == eval(repr(scene))
+    assert scene.notes == () and tuple(scene.frame(0)[0, 0]) == (0xFD, 0xF6, 0xE3)
+    (note,) = scene.replace(view_colors_accent="#ffffff").notes
+    assert note.startswith("view.colors.accent = #ffffff: its contrast to the background #fdf6e3 is 1.0")
+    assert scene.replace(view=None, red_color=None) == ARTICLE
+    with pytest.raises(piblocks.SceneError, match="^view_colors_ink = red: must be a colour as"):
+        scene.replace(view_colors_ink="red")
+
+
 def test_notes_tell_of_conventions():
     corner = Scene(blue_position=0.5, red_mass=100, red_position=3)
     assert len(corner.notes) == 1 and "by convention" in corner.notes[0]

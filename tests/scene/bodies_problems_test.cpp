@@ -24,10 +24,11 @@ TEST_F(BodiesFile, KeysOfABodyAreChecked) {
   expect_problem(body + "width = -1\n", "1: body 1.width = -1: must be greater than 0");
   expect_problem(body + "velocity = [1, 2, 3]\n",
                  "3: body 1.velocity = [1, 2, 3]: must be a number, or two as [x, y]");
-  expect_problem(body + "color = 'blue'\n",
-                 "3: body 1.color = blue: must be a colour as \"#1f77b4\"");
-  expect_problem(body + "color = '#12345g'\n",
-                 "3: body 1.color = #12345g: must be a colour as \"#1f77b4\"");
+  for (const char* color : {"blue", "#12345g", "#12345", "#1234567", "1f77b4"}) {
+    expect_problem(body + "color = '" + color + "'\n",
+                   std::string("3: body 1.color = ") + color +
+                       ": must be a colour as \"#1f77b4\": # and six hexadecimal digits");
+  }
   expect_problem(body + "label = \"a\\tb\"\n", "3: body 1.label = a\tb: must be one line of text");
   expect_problem(body + "path = 'yes'\n", "3: body 1.path = yes: must be true or false");
   expect_problem("[[body]]\nwidth = 1\n", "1: body 1.position: is missing");

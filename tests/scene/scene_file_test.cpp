@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "scene/file_fixture.hpp"
+#include "scene/scene_toml.hpp"
 
 namespace piblocks {
 namespace {
@@ -89,6 +90,50 @@ TEST_F(SceneFileTest, LeavesKeysOut) {
   EXPECT_EQ(scene.view.frame_rate, Scene().view.frame_rate);
   EXPECT_EQ(scene.system.bodies[1].mass.value(), Scene().system.bodies[1].mass.value());
   EXPECT_EQ(scene.view.theme, Theme::dark);
+}
+
+TEST_F(SceneFileTest, ReadsColours) {
+  const Scene scene = load(R"(
+    [view]
+    background = "#FDf6e3"
+    [view.colors]
+    ink = "#073642"
+    done = "#859900"
+    [red]
+    color = "#dc322f"
+  )");
+  EXPECT_EQ(scene.view.background, Background::opaque);
+  EXPECT_EQ(scene.view.colors.background, (RgbColor{0xfd, 0xf6, 0xe3}));
+  EXPECT_EQ(scene.view.colors.ink, (RgbColor{0x07, 0x36, 0x42}));
+  EXPECT_EQ(scene.view.colors.done, (RgbColor{0x85, 0x99, 0x00}));
+  EXPECT_FALSE(scene.view.colors.accent);
+  EXPECT_EQ(scene.styles[1].color, (RgbColor{0xdc, 0x32, 0x2f}));
+  EXPECT_FALSE(scene.styles[0].color);
+  EXPECT_EQ(describe(load(scene_toml(scene))), describe(scene));
+}
+
+TEST_F(SceneFileTest, ABackgroundReplacesTheOneBefore) {
+  ScriptBuilder builder;
+  builder.read_text("text", "view.background = '#fdf6e3'\n");
+  builder.set("--opaque", "view.background", "opaque");
+  EXPECT_FALSE(builder.build_scene().view.colors.background);
+  builder.set("--background", "view.background", "#102030");
+  builder.set("--transparent", "view.background", "transparent");
+  EXPECT_EQ(builder.build_scene().view.background, Background::transparent);
+  EXPECT_FALSE(builder.build_scene().view.colors.background);
+  Scene both;
+  both.view.background = Background::transparent;
+  both.view.colors.background = RgbColor{1, 2, 3};
+  ASSERT_EQ(problems_of(both).size(), 1U);
+  EXPECT_EQ(problems_of(both).front().key, "view.background");
+}
+
+TEST_F(SceneFileTest, BackgroundsAreNamesOrColours) {
+  for (const char* text : {"5", "'#12'", "'fdf6e3'", "'red'", "''", "'#fdf6e'", "'#fdf6ez'"}) {
+    const auto found = problems(std::string("view.background = ") + text + "\n");
+    ASSERT_EQ(found.size(), 1U) << text;
+    EXPECT_TRUE(contains(found.front(), "a colour as \"#1f77b4\": # and six hexadecimal digits"));
+  }
 }
 
 TEST_F(SceneFileTest, ReadsEveryKey) {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "scene/file_fixture.hpp"
+#include "scene/scene_toml.hpp"
 
 namespace piblocks {
 namespace {
@@ -116,6 +117,19 @@ TEST_F(StoryboardFileTest, WhatAPartSaysHoldsForAllItCompares) {
   EXPECT_EQ(runs[1].pacing.duration_s, 4);
 }
 
+TEST_F(StoryboardFileTest, ColoursAreTheFilmsAndThoseOfBlocksARuns) {
+  const Storyboard read = story(R"(
+    view.background = "#0b2545"
+    [[part]]
+    compare = [{ digits = 1 }, { digits = 2, blue.color = "#00ff00" }]
+  )");
+  const Scenes& runs = std::get<Scenes>(read.segments.at(0).content);
+  EXPECT_EQ(with_film_view(runs[1], read.view).view.colors.background, (RgbColor{11, 37, 69}));
+  EXPECT_FALSE(runs[0].styles[0].color);
+  EXPECT_EQ(runs[1].styles[0].color, (RgbColor{0, 255, 0}));
+  EXPECT_EQ(describe(story(scene_toml(read))), describe(read));
+}
+
 TEST_F(StoryboardFileTest, EveryProblemNamesItsLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"[[part]]\ndigits = 0", ":2: digits = 0: must be a whole number from 1"},
@@ -129,6 +143,7 @@ TEST_F(StoryboardFileTest, EveryProblemNamesItsLine) {
       {"[[part]]\nview.size = '64x64'", ":2: view.size: holds for the whole film"},
       {"[[part]]\n[part.view]\nfps = 10", ":3: view.fps: holds for the whole film"},
       {"[[part]]\nview.theme = 'dark'", ":2: view.theme: holds for the whole film"},
+      {"[[part]]\nview.colors.ink = '#000000'", ":2: view.colors.ink: holds for the whole film"},
       {"[[part]]\ngolden.frames = [1]", ":2: golden.frames: holds for the whole film"},
       {"[[part]]\nfade = 1", ":2: fade = 1: no part is before the first"},
       {"[[part]]\n[[part]]\nfade = -1", ":3: fade = -1: must not be less than 0"},

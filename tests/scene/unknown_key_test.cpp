@@ -16,7 +16,12 @@ TEST_F(UnknownKey, IsAnsweredByTheOneThatWasMeant) {
       {"[show]\ntheme = 'dark'\n", "2: show.theme: unknown key; did you mean 'view.theme'?"},
       {"size = 1\n", "1: size: unknown key; did you mean 'view.size' or 'golden.size'?"},
       {"digts = 1\n", "1: digts: unknown key; did you mean 'digits'?"},
-      {"[red]\nview.title = 1\n", "2: red.view: unknown key"},
+      {"[red]\nview.title = 1\n", "2: red.view.title: unknown key; did you mean 'show.title'?"},
+      {"[view.colors]\nink = 1\n",
+       "2: view.colors.ink = 1: must be a colour as \"#1f77b4\": # and six hexadecimal digits"},
+      {"[view.colours]\nink = 1\n",
+       "2: view.colours.ink: unknown key; did you mean 'view.colors.ink'?"},
+      {"view.colors = 1\n", "1: view.colors: unknown key; a table is written [view.colors]"},
       {"quux.quuz = 1\n", "1: quux.quuz: unknown key"},
       {"[[part]]\nfad = 1\n", "2: fad: unknown key; did you mean 'fade'?"},
       {"fade = 1\n", "1: fade: unknown key; it belongs into a [[part]]"}};

@@ -4,6 +4,8 @@
 #include <piblocks/render.hpp>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "core/overwrite_check.hpp"
 #include "core/stop.hpp"
 #include "draw/canvas.hpp"
+#include "draw/look.hpp"
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "render/renderings.hpp"
@@ -71,8 +74,8 @@ py::tuple render_film(const BoundScript& bound, const std::string& output, const
     };
     rendered = render(*job, report, stop);
     if (!rendered.aftermath.empty()) rendered.notes.push_back(rendered.aftermath);
-    for (std::string& note : convention_notes(job->script)) {
-      rendered.notes.push_back(std::move(note));
+    for (const auto& notes_of : {convention_notes, contrast_notes}) {
+      std::ranges::move(notes_of(job->script), std::back_inserter(rendered.notes));
     }
   });
   return py::make_tuple(py::bytes(cli::name_of(*job)), rendered.frame_count, rendered.notes,

@@ -6,12 +6,14 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <utility>
 
 #include "cli/script_facts.hpp"
 #include "core/nearest_name.hpp"
+#include "draw/look.hpp"
 #include "python/extension/without_gil.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
@@ -83,6 +85,7 @@ std::vector<std::string> notes_of(const BoundScript& bound) {
   if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
     if (auto note = endless_note(*scene)) notes.push_back(std::move(*note));
   }
+  std::ranges::move(contrast_notes(bound.script), std::back_inserter(notes));
   return notes;
 }
 

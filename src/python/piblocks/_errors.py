@@ -18,6 +18,9 @@ _OPTIONS = {
     ).split()
 } | {
     "allow-uncertain": "time_allow_uncertain=True",
+    "accent": "view_colors_accent",
+    "background": "view_background",
+    "blue-color": "blue_color",
     "caption": "show_caption",
     "duration": "time_duration",
     "ease": "time_ease",
@@ -27,6 +30,7 @@ _OPTIONS = {
     "from": "time_from",
     "hold-end": "time_hold_end",
     "hold-start": "time_hold_start",
+    "ink": "view_colors_ink",
     "logo": "show_logo",
     "loop": "time_loop=True",
     "loupe": "show_loupe",
@@ -36,6 +40,7 @@ _OPTIONS = {
     "output": "file",
     "overwrite": "overwrite=True",
     "panels": "show_panels",
+    "red-color": "red_color",
     "show": "show_overlays",
     "shutter": "view_shutter",
     "size": "view_size",

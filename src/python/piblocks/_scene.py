@@ -176,8 +176,8 @@ class Scene:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What you should know of the count, in rare scenes: that it follows a convention, or that
-        collisions are infinitely many."""
+        """What you should know of the scene, in rare cases: that the count follows a convention, that
+        collisions are infinitely many, or that a color is hard to see."""
         return tuple(self._script.notes)
 
     def to_toml(self) -> str:

@@ -48,8 +48,7 @@ const GROUPS = [
     {key: "view.shutter", label: "Shutter", slider: [0, 1, 0.05]},
     {key: "view.x", label: "View: x from, to", kind: "range"},
     {key: "view.y", label: "View: y from, to", kind: "range"},
-    {key: "view.background", label: "Background", kind: "choice",
-     choices: ["opaque", "transparent"]}]},
+    {key: "view.background", label: "Background", hints: ["opaque", "transparent", "#fdf6e3"]}]},
 ];
 
 /** Makes an element: element("p", {className: "hint"}, "text", child). */
