@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "scene.toml"},
                  "exceeds length limit of 128 digits",
                  "red.mass = 3." + std::string(127, '1')},
-        BadInput{{"count", "scene.toml"}, "a.a: unknown key", repeated("a.", 15) + "b = 1"},
+        BadInput{{"count", "scene.toml"}, "a.b: unknown key", repeated("a.", 15) + "b = 1"},
         BadInput{{"log", "--digits", "10"}, "3,141,592,653 rows are more than 100,000,000"}));
 
 INSTANTIATE_TEST_SUITE_P(
