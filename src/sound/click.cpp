@@ -12,11 +12,15 @@ namespace {
 /// Sums of impulses grow like m_red / m_blue, which may be beyond the range of a double.
 constexpr double kMost = 1e300;
 
-constexpr double kHighest = 8;
+/// Clacks within this distance sound as one.
+constexpr double kTogether_samples = 4;
 
-/// 1 at no distance, falling smoothly to 0 at kCompressed_samples.
+/// Clacks within kCrowd_samples at 100 a second.
+constexpr double kDense = 10;
+
+/// 1 at no distance, falling smoothly to 0 at kTogether_samples.
 double nearness(double distance_samples) {
-  const double x = distance_samples / kCompressed_samples;
+  const double x = distance_samples / kTogether_samples;
   const double bell = std::max(0.0, 1 - x * x);
   return bell * bell;
 }
@@ -24,7 +28,8 @@ double nearness(double distance_samples) {
 double bounded(double impulse) { return std::min(impulse, kMost); }
 
 /// In parts of the rate: the middle of the slope from 18 to 23 kHz.
-constexpr double kCutoff = 20.5 / 48;
+constexpr double kSharpCutoff = 20.5 / 48;
+constexpr double kSoftCutoff = 4.0 / 48;
 /// Shape of the window, for 80 dB.
 constexpr double kBeta = 7.857;
 
@@ -58,26 +63,30 @@ constexpr double kNothing = 1e-8;
 
 }  // namespace
 
-double compressed(double impulse) {
+double loudness(double impulse) {
   // arsinh x = ln(1 + x + x^2/(1 + sqrt(1 + x^2)))
   const double x = bounded(impulse);
   const double knee = rounded::log1p(x + x * (x / (1 + rounded::hypot(1, x))));
-  return knee / (1 + knee / kHighest);
+  return 1 + knee / (1 + knee);
 }
 
-double height(std::span<const Clack> clacks, std::size_t index) {
+Click click(std::span<const Clack> clacks, std::size_t index) {
   const double sample = clacks[index].sample;
   const double own = bounded(clacks[index].impulse);
-  if (own == 0) return 0;
-  double together = own;
-  for (std::size_t i = index; i-- > 0 && sample - clacks[i].sample < kCompressed_samples;) {
-    together += nearness(sample - clacks[i].sample) * bounded(clacks[i].impulse);
+  if (own == 0) return {};
+  const auto within = [&](double distance) {
+    const auto first = std::ranges::lower_bound(clacks, sample - distance, {}, &Clack::sample);
+    const auto last = std::ranges::upper_bound(clacks, sample + distance, {}, &Clack::sample);
+    return std::span(first, last);
+  };
+  const std::span<const Clack> near = within(kTogether_samples);
+  double together = 0;
+  for (const Clack& clack : near) {
+    together += nearness(clack.sample - sample) * bounded(clack.impulse);
   }
-  for (std::size_t i = index + 1;
-       i < clacks.size() && clacks[i].sample - sample < kCompressed_samples; ++i) {
-    together += nearness(clacks[i].sample - sample) * bounded(clacks[i].impulse);
-  }
-  return compressed(together) * (own / together);
+  const double crowd = 1 + double(within(kCrowd_samples).size() - near.size());
+  return {.height = std::min(loudness(together), std::sqrt(kDense / crowd)) * (own / together),
+          .softness = std::clamp(crowd / kDense - 1, 0.0, 1.0)};
 }
 
 double sinc(double x) {
@@ -94,20 +103,25 @@ ClickKernel::ClickKernel() {
   for (int phase = 0; phase <= kPhases; ++phase) {
     for (int tap = 0; tap < 2 * kReach; ++tap) {
       const double distance = tap - (kReach - 1) - double(phase) / kPhases;
-      phases_.push_back(2 * kCutoff * sinc(2 * kCutoff * distance) *
-                        kaiser(distance / kReach, kBeta));
+      const double window = kaiser(distance / kReach, kBeta);
+      const auto pulse = [&](double cutoff) {
+        return 2 * cutoff * sinc(2 * cutoff * distance) * window;
+      };
+      phases_.push_back({.sharp = pulse(kSharpCutoff), .soft = pulse(kSoftCutoff)});
     }
   }
 }
 
-void ClickKernel::add(double fraction, double left, double right, double* samples) const {
+void ClickKernel::add(double fraction, double softness, double left, double right,
+                      double* samples) const {
   const double place = fraction * kPhases;
   const int phase = int(place);
   const double part = place - phase;
-  const double* const low = phases_.data() + std::ptrdiff_t{phase} * 2 * kReach;
-  const double* const high = low + 2 * kReach;
+  const Tap* const low = phases_.data() + std::ptrdiff_t{phase} * 2 * kReach;
+  const Tap* const high = low + 2 * kReach;
   for (int tap = 0; tap < 2 * kReach; ++tap) {
-    const double value = low[tap] + part * (high[tap] - low[tap]);
+    const double before = low[tap].at(softness);
+    const double value = before + part * (high[tap].at(softness) - before);
     samples[2 * tap] += left * value;
     samples[2 * tap + 1] += right * value;
   }

@@ -14,19 +14,26 @@ namespace piblocks {
 /// Left and right.
 using StereoSample = std::array<double, 2>;
 
-/// Distance in which clacks are compressed together, nearer ones more.
-inline constexpr int kCompressed_samples = 4;
+/// Distance on either side, 50 ms, in which clacks are counted.
+inline constexpr int kCrowd_samples = 2400;
 
-/// The height for an impulse: a small one stays as it is, 1 gives 0.8, 100 gives 3.2, and all are
-/// below 8. The sum of the impulses within a sample grows like the mass ratio, without a limit.
-double compressed(double impulse);
+/// The height for an impulse: 1 for the weakest, 1.5 for 1, 1.8 for 100, and below 2 for all. The
+/// sum of the impulses within a sample grows like the mass ratio, without a limit.
+double loudness(double impulse);
 
-/// The height of the click for clack `index`. The impulses around it decide how much it is
-/// compressed, so that many collisions are as loud as one of their total impulse.
-/// @param clacks  in the order of `sample`; all within kCompressed_samples of it are among them
-double height(std::span<const Clack> clacks, std::size_t index);
+struct Click {
+  double height = 0;
+  double softness = 0;  ///< 0: sharp, 1: without what is above 4 kHz
+};
 
-/// A sinc in a Kaiser window: at 48 kHz flat to 18 kHz; from 23 kHz on inaudible, 80 dB down.
+/// The click for clack `index`. Clacks within 4 samples are as loud as one of their total impulse.
+/// From 100 clacks a second on their heights fall, so that their power stays the same, and they
+/// become softer; from 200 a second on they are soft.
+/// @param clacks  in the order of `sample`; all within kCrowd_samples of it are among them
+Click click(std::span<const Clack> clacks, std::size_t index);
+
+/// A sinc in a Kaiser window. At 48 kHz the sharp one is flat to 18 kHz, and from 23 kHz on
+/// inaudible, 80 dB down; the soft one is 6 dB down at 4 kHz and 80 dB from 6.5 kHz on.
 class ClickKernel {
  public:
   /// Samples it reaches to both sides.
@@ -36,11 +43,17 @@ class ClickKernel {
 
   /// Adds a pulse with these heights to 2 * kReach pairs of samples. The pulse is `fraction` of a
   /// sample, 0 <= fraction < 1, after the pair with index kReach - 1.
-  void add(double fraction, double left, double right, double* samples) const;
+  void add(double fraction, double softness, double left, double right, double* samples) const;
 
  private:
   static constexpr int kPhases = 256;
-  std::vector<double> phases_;  // kPhases + 1 rows of 2 * kReach
+  struct Tap {
+    double sharp;
+    double soft;
+
+    double at(double softness) const { return sharp + softness * (soft - sharp); }
+  };
+  std::vector<Tap> phases_;  // kPhases + 1 rows of 2 * kReach
 };
 
 /// sin(pi x)/(pi x).

@@ -11,8 +11,11 @@
 namespace piblocks {
 namespace {
 
-/// A clack of impulse 1 alone peaks at about a fifth of full scale.
-constexpr double kVolume = 0.28;
+/// The weakest clack alone peaks at -14 dB or higher, on both sides.
+constexpr double kVolume = 0.42;
+
+/// Left and right differ by at most 3 dB.
+constexpr double kWidest = 0.107;
 
 /// How much later a voice begins than its first whole sample of the film.
 Rational to_first_sample_s(const Voice& voice, int rate_hz) {
@@ -51,11 +54,11 @@ RunSound::SampleRamp RunSound::in_samples(const std::optional<Ramp>& ramp, int r
   return {to_double(ramp->begin_s * rate_hz), to_double(ramp->end_s * rate_hz)};
 }
 
-/// The weights of left and right, never 0, of equal power from one edge of the frame to the other.
+/// The weights of left and right, of equal power from one edge of the frame to the other.
 StereoSample RunSound::channels(const Clack& clack) const {
   const double in_view = (clack.position - view_low_) / view_width_;
   const double x = left_ + width_ * std::clamp(in_view, 0.0, 1.0);
-  const double angle = std::numbers::pi / 2 * (0.15 + 0.7 * x);
+  const double angle = std::numbers::pi / 2 * (0.5 + kWidest * (2 * x - 1));
   const auto [sine, cosine] = rounded::sin_cos(angle);
   return {cosine, sine};
 }
@@ -63,23 +66,26 @@ StereoSample RunSound::channels(const Clack& clack) const {
 /// Adds the clicks that reach into the block.
 void RunSound::add_clicks() {
   const std::int64_t end = block_begin_ + kBlock + kReach;
-  stream_.read_until(end + kCompressed_samples, clacks_);
+  const auto known = std::ptrdiff_t(clacks_.size());
+  stream_.read_until(end + kCrowd_samples, clacks_);
   // Clacks of both kinds within an eighth of a sample are out of order.
-  std::stable_sort(clacks_.begin() + std::ptrdiff_t(clicked_), clacks_.end(),
+  std::stable_sort(clacks_.begin() + known, clacks_.end(),
                    [](const Clack& a, const Clack& b) { return a.sample < b.sample; });
   for (; clicked_ < clacks_.size() && clacks_[clicked_].sample < double(end); ++clicked_) {
     const Clack& clack = clacks_[clicked_];
-    const double volume = kVolume * height(clacks_, clicked_);
+    const auto [height, softness] = click(clacks_, clicked_);
+    const double volume = kVolume * height;
     const StereoSample side = channels(clack);
     const double whole = std::floor(clack.sample);
     const auto first = std::int64_t(whole) - (kReach - 1);
     const std::int64_t at = first - (block_begin_ - kReach);
     std::vector<double>& clicks = clack.kind == CollisionKind::wall ? wall_clicks_ : block_clicks_;
-    kernel_.add(clack.sample - whole, volume * side[0], volume * side[1], clicks.data() + 2 * at);
+    kernel_.add(clack.sample - whole, softness, volume * side[0], volume * side[1],
+                clicks.data() + 2 * at);
   }
-  const auto done = std::find_if(
-      clacks_.begin(), clacks_.begin() + std::ptrdiff_t(clicked_),
-      [&](const Clack& clack) { return clack.sample > double(end) - kCompressed_samples; });
+  const auto done =
+      std::find_if(clacks_.begin(), clacks_.begin() + std::ptrdiff_t(clicked_),
+                   [&](const Clack& clack) { return clack.sample > double(end) - kCrowd_samples; });
   clicked_ -= std::size_t(done - clacks_.begin());
   clacks_.erase(clacks_.begin(), done);
 }

@@ -1,4 +1,4 @@
-// The order of the stages: runs -> mix -> limiter.
+// The order of the stages: runs -> mix -> leveller -> limiter.
 #include "sound/soundtrack.hpp"
 
 #include <piblocks/error.hpp>
@@ -24,7 +24,7 @@ constexpr double kLimiterBeta = 6;
 
 constexpr double kAsGoodAsOne = 1 - 1e-5;
 
-/// -2.5 dB: lossy encoders add up to 1.1 dB to the peaks.
+/// -2.5 dB: lossy encoders add up to 0.4 dB to the peaks.
 constexpr double kCeiling = 0.75;
 
 std::int64_t to_nearest(const Rational& value) {
@@ -104,8 +104,8 @@ Soundtrack::Soundtrack(std::vector<Voice> voices, const Rational& duration_s)
       limiter_(kCeiling, kRate_hz) {
   for (const Voice& voice : voices_) check(voice.stretches);
   find_next_voice();
-  // Time goes by in the limiter before the first sample leaves it.
-  for (int i = 0; i < Limiter::kDelay; ++i) next_limited();
+  // Time goes by in both before the first sample leaves them.
+  for (int i = 0; i < Leveller::kDelay + Limiter::kDelay; ++i) next_limited();
 }
 
 void Soundtrack::find_next_voice() {
@@ -125,7 +125,7 @@ StereoSample Soundtrack::next_limited() {
   }
   playing_.remove_if([](const RunSound& run) { return run.is_over(); });
   ++mixed_;
-  return limiter_.next(sum);
+  return limiter_.next(leveller_.next(sum));
 }
 
 std::size_t Soundtrack::read(std::span<float> samples) {

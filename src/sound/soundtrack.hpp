@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "sound/leveller.hpp"
 #include "sound/run_sound.hpp"
 
 namespace piblocks {
@@ -82,8 +83,9 @@ class Soundtrack {
   std::size_t begun_ = 0;        // of the voices
   std::int64_t next_begin_ = 0;  // pair with which the next one begins
   std::list<RunSound> playing_;
+  Leveller leveller_;
   Limiter limiter_;
-  std::int64_t mixed_ = 0;  // pairs that went into the limiter
+  std::int64_t mixed_ = 0;  // pairs that went into the leveller
   std::int64_t given_ = 0;  // pairs of the whole
 };
 

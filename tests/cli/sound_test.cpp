@@ -26,6 +26,24 @@ class SoundTest : public CliFixture {
     return shell(std::string("ffprobe -v error -select_streams ") + stream +
                  " -show_entries stream=" + entries + " -of default=nk=1:nw=1 " + name);
   }
+  /// The values that ffmpeg gives one of the metadata, frame by frame.
+  std::vector<double> values(const std::string& name, const std::string& filter,
+                             const std::string& key) const {
+    const std::string text = shell("ffmpeg -nostdin -v error -i " + name + " -af '" + filter +
+                                   ",ametadata=print:key=" + key + ":file=-' -f null -");
+    std::vector<double> values;
+    for (const std::string& line : lines(text)) {
+      if (line.starts_with(key)) values.push_back(std::stod(line.substr(key.size() + 1)));
+    }
+    return values;
+  }
+  /// The momentary loudness, of 0.4 s, where it is highest.
+  double loudest_LUFS(const std::string& name) const {
+    return std::ranges::max(values(name, "ebur128=metadata=1", "lavfi.r128.M"));
+  }
+  double level_db(const std::string& name, const std::string& filter) const {
+    return values(name, filter + ",astats=metadata=1", "lavfi.astats.Overall.RMS_level").back();
+  }
   double peak_db(const std::string& name) const {
     const std::string text =
         shell("ffmpeg -nostdin -hide_banner -i " + name + " -af ebur128=peak=true -f null - 2>&1");
@@ -127,6 +145,54 @@ TEST_F(SoundTest, StaysBelowFullScaleForFfmpegToo) {
     EXPECT_LE(peak_db("a.wav"), -2.4) << digits;
     EXPECT_LE(peak_db("a.mp4"), -1.3) << digits;
   }
+}
+
+TEST_F(SoundTest, IsNeverTooLoud) {
+  write("four.toml",
+        "[[part]]\ncompare = [{digits = 4}, {digits = 5}, {digits = 6}, {digits = 7}]\n");
+  std::vector<Arguments> scenes = {
+      {"two-walls"}, {"gas"}, {"why-pi"}, {"real-blocks"}, {"four.toml"}};
+  for (const char* digits : {"1", "2", "3", "5", "10", "20"}) {
+    scenes.push_back({"--digits", digits});
+    // As dense as low tones for seconds.
+    scenes.push_back({"--digits", digits, "--from", "3", "--to", "4", "--speed", "1/10"});
+  }
+  for (const Arguments& scene : scenes) {
+    output_of(Arguments{"render", "--quiet", "-o", "a.wav"} + scene);
+    EXPECT_LT(loudest_LUFS("a.wav"), -16) << scene.back();
+    EXPECT_LT(peak_db("a.wav"), -1) << scene.back();
+  }
+}
+
+/// Up to 100 a second, and in AAC, too.
+TEST_F(SoundTest, HasNoClackThatIsTooQuiet) {
+  for (const std::string digits : {"1", "2", "3"}) {
+    output_of(Arguments{"render", "--sound", "--digits", digits, "-o", "a.mp4"} + kSmallSound);
+    const std::vector<float> sound = left("a.mp4");
+    const auto log = make_pair_log(article_blocks(std::stoi(digits)));
+    std::vector<double> samples;
+    for (Integer index = 1; index <= log->last(); ++index) {
+      samples.push_back(log->blocks_collision(index).time.hi * 48000);
+    }
+    for (const double sample : samples) {
+      const auto crowd = std::ranges::count_if(
+          samples, [&](double other) { return std::fabs(other - sample) <= 2400; });
+      if (crowd > 10) continue;
+      float peak = 0;
+      for (std::size_t i = std::size_t(sample) - 2; i < std::size_t(sample) + 20; ++i) {
+        peak = std::max(peak, std::fabs(sound[i]));
+      }
+      EXPECT_GE(20 * std::log10(peak), -14) << digits << " digits at " << sample;
+    }
+  }
+}
+
+/// Of 20 digits, at the rates above 200 a second.
+TEST_F(SoundTest, OfASwarmIsABuzzAndNoHiss) {
+  output_of({"render", "--digits", "20", "--quiet", "-o", "a.wav"});
+  const std::string swarm = "atrim=3.42:3.58";
+  const double treble = level_db("a.wav", swarm + ",highpass=f=8000,highpass=f=8000");
+  EXPECT_LT(treble, level_db("a.wav", swarm) - 40);
 }
 
 TEST_F(SoundTest, IsAKeyOfTheScene) {

@@ -18,11 +18,11 @@ class ClickTrain {
  public:
   explicit ClickTrain(std::size_t size) : pairs_(2 * size), size_(size) {}
 
-  void add(double sample, double height) {
+  void add(double sample, double height, double softness = 0) {
     const double whole = std::floor(sample);
     const double first = whole - (ClickKernel::kReach - 1);
     if (first < 0 || first + 2 * ClickKernel::kReach > double(size_)) return;
-    kernel_.add(sample - whole, height, 0, pairs_.data() + 2 * std::size_t(first));
+    kernel_.add(sample - whole, softness, height, 0, pairs_.data() + 2 * std::size_t(first));
   }
   std::vector<double> samples() const {
     std::vector<double> result(size_);

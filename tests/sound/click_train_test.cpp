@@ -56,13 +56,16 @@ TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
   }
 }
 
-/// The compressed clicks of 20 digits around the turn.
-std::vector<double> clicks() {
+/// The clicks of 20 digits around the turn, all sharp or as they are heard.
+std::vector<double> clicks(bool are_sharp) {
   const auto log = make_pair_log(article_system(20));
   const Rational begin = Rational(7, 2) - Rational(1, 5);
   const std::vector<Clack> clacks = clacks_of(*log, {{0, begin, 1}}, Rational(2, 5));
   ClickTrain train(19200);
-  for (std::size_t i = 0; i < clacks.size(); ++i) train.add(clacks[i].sample, height(clacks, i));
+  for (std::size_t i = 0; i < clacks.size(); ++i) {
+    const auto [height, softness] = click(clacks, i);
+    train.add(clacks[i].sample, height, are_sharp ? 0 : softness);
+  }
   return train.samples();
 }
 
@@ -88,7 +91,7 @@ double band_energy(const std::vector<double>& samples, double tau_s, double low_
 }
 
 TEST(ClickTrain, IsAChirpWithoutAnythingFoldedBack) {
-  const std::vector<double> samples = clicks();
+  const std::vector<double> samples = clicks(true);
   // Collisions come 1.5/tau^2 times a second. Below this frequency is their steady push, which is
   // slower than 3 kHz, and nothing else.
   for (double tau_s : {0.0125, 0.011, 0.0105, 0.0100, 0.0095}) {
@@ -105,30 +108,68 @@ TEST(ClickTrain, IsAChirpWithoutAnythingFoldedBack) {
   }
 }
 
-TEST(Loudness, RisesWithTheImpulseAndStaysBounded) {
-  double before = 0;
-  for (double impulse = 1e-6; impulse < 1e300; impulse *= 10) {
-    const double now = compressed(impulse);
-    EXPECT_GT(now, before);
-    EXPECT_LT(now, 8);
-    before = now;
+TEST(ClickTrain, IsSoftAsSoonAsItIsDense) {
+  const std::vector<double> samples = clicks(false);
+  // 1.5/tau^2 times a second: 240 to 17,000.
+  for (double tau_s : {0.079, 0.05, 0.03, 0.02, 0.0125, 0.0095}) {
+    const double all = band_energy(samples, 0.079, 0, 24000);
+    const double treble = band_energy(samples, tau_s, 6500, 24000);
+    EXPECT_LT(10 * std::log10(treble / all), -70) << tau_s;
   }
-  EXPECT_NEAR(compressed(1e-6), 1e-6, 1e-12);
-  EXPECT_NEAR(compressed(1), 0.79, 0.01);
-  EXPECT_NEAR(compressed(100), 3.19, 0.01);
-  EXPECT_LT(compressed(HUGE_VAL), 8);
 }
 
-TEST(Loudness, OfACrowdIsThatOfOneBlow) {
-  std::vector<Clack> crowd;
-  for (int i = 0; i < 100; ++i) crowd.push_back({10 + i * 1e-6, CollisionKind::wall, 5, 0});
+TEST(Loudness, RisesWithTheImpulseAndStaysBounded) {
+  double before = 1;
+  for (double impulse = 1e-6; impulse < 1e300; impulse *= 10) {
+    const double now = loudness(impulse);
+    EXPECT_GT(now, before);
+    EXPECT_LT(now, 2);
+    before = now;
+  }
+  EXPECT_EQ(loudness(0), 1);
+  EXPECT_NEAR(loudness(1), 1 + 0.8814 / 1.8814, 1e-4);  // arsinh 1 = ln(1 + sqrt 2)
+  EXPECT_NEAR(loudness(100), 1 + 5.2983 / 6.2983, 1e-4);
+  EXPECT_LT(loudness(HUGE_VAL), 2);
+}
+
+TEST(Loudness, OfABlowOfManyIsThatOfOne) {
+  std::vector<Clack> blow;
+  for (int i = 0; i < 100; ++i) blow.push_back({10 + i * 1e-6, CollisionKind::wall, 5, 0});
   double total = 0;
-  for (std::size_t i = 0; i < crowd.size(); ++i) total += height(crowd, i);
-  EXPECT_NEAR(total, compressed(500), 1e-6);
+  for (std::size_t i = 0; i < blow.size(); ++i) total += click(blow, i).height;
+  EXPECT_NEAR(total, loudness(500), 1e-6);
   // Far from each other they are as loud as alone.
   const std::vector<Clack> apart = {{0, CollisionKind::wall, 5, 0},
                                     {5, CollisionKind::wall, 50, 0}};
-  EXPECT_EQ(height(apart, 0), compressed(5));
+  EXPECT_EQ(click(apart, 0).height, loudness(5));
+}
+
+/// The click in the middle of a second of clacks.
+Click click_at_rate(int per_second) {
+  std::vector<Clack> clacks;
+  for (int i = 0; i < per_second; ++i) {
+    clacks.push_back({i * kTrainRate_hz / per_second, CollisionKind::wall, 1e6, 0});
+  }
+  return click(clacks, clacks.size() / 2);
+}
+
+TEST(Loudness, OfASwarmDoesNotGrowWithTheRate) {
+  for (int per_second : {1, 5, 10}) {
+    EXPECT_EQ(click_at_rate(per_second).height, loudness(1e6)) << per_second;
+  }
+  for (int per_second : {100, 300, 1000, 10000}) {
+    const double height = click_at_rate(per_second).height;
+    EXPECT_NEAR(height * height * per_second, 100, 10) << per_second;
+  }
+}
+
+TEST(Loudness, OfASwarmIsSoft) {
+  EXPECT_EQ(click_at_rate(90).softness, 0);
+  EXPECT_GT(click_at_rate(150).softness, 0.4);
+  EXPECT_LT(click_at_rate(150).softness, 0.6);
+  for (int per_second : {200, 1000, 100000}) {
+    EXPECT_EQ(click_at_rate(per_second).softness, 1) << per_second;
+  }
 }
 
 }  // namespace
