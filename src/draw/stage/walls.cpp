@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -83,29 +82,26 @@ WallPart part_of(const Wall& wall, const std::vector<Wall>& walls, const View& v
   return part;
 }
 
-/// What is seen of a straight wall, in pixels. Bodies are on the left of its direction.
-using Side = std::array<Point, 2>;
-
-/// The angle between two directions from a corner, and beside its upper side how large it is.
-void add_angle(const Point& corner, const Point& way, const Point& other,
-               const DrawingContext& context, std::vector<DrawItem>& items) {
-  const auto turn_of = [](const Point& to) { return rounded::atan2(-to.y, to.x); };
-  const double first = turn_of(way);
-  const double angle = std::remainder(turn_of(other) - first, 2 * std::numbers::pi);
+/// The angle between two walls, the second of which begins where the first ends. How large it is
+/// stands behind the upper one.
+void add_angle(const WallMap& first, const WallMap& second, const DrawingContext& context,
+               std::vector<DrawItem>& items) {
   const Sizes& sizes = context.sizes;
-  const std::vector<Point> arc =
-      Circle{corner, kAngleArc * sizes.short_side}.arc(first, first + angle);
-  items.emplace_back(PathItem{nth(ItemId::wall, items.size()), arc, false, std::nullopt,
-                              Stroke{context.palette.text, sizes.grid_line}});
+  const auto turn_of = [](const Point& way) { return rounded::atan2(-way.y, way.x); };
+  const double turn = turn_of(-1 * first.along);
+  const double angle = std::remainder(turn_of(second.along) - turn, 2 * std::numbers::pi);
+  const Circle circle{second.from, kAngleArc * sizes.short_side};
+  items.emplace_back(PathItem{nth(ItemId::wall, items.size()), circle.arc(turn, turn + angle),
+                              false, std::nullopt, Stroke{context.palette.text, sizes.grid_line}});
   const std::string text = fmt::format("{:.3g}°", std::abs(angle) * 180 / std::numbers::pi);
   const double width = context.font.width_em(text) * sizes.text;
-  const Point& beside = arc.front().y < arc.back().y ? arc.front() : arc.back();
-  const Point inside = on_way(arc.front(), arc.back(), 0.5) - beside;
-  const Point along = (beside - corner) / length(beside - corner);
-  const Point outwards = (dot(turned_right(along), inside) < 0 ? 1.0 : -1.0) * turned_right(along);
-  const double far = style::kWallWidth * sizes.short_side + kBesideHatch_em * sizes.text +
-                     std::abs(outwards.x) * width / 2 + std::abs(outwards.y) * sizes.text / 2;
-  const Point centre = beside + far * outwards;
+  const double ends[] = {first.length - circle.radius, circle.radius};
+  const bool is_first = first(ends[0], 0).y < second(ends[1], 0).y;
+  const WallMap& upper = is_first ? first : second;
+  const double behind = style::kWallWidth * sizes.short_side + kBesideHatch_em * sizes.text +
+                        std::abs(upper.along.y) * width / 2 +
+                        std::abs(upper.along.x) * sizes.text / 2;
+  const Point centre = upper(is_first ? ends[0] : ends[1], behind);
   items.emplace_back(TextItem{nth(ItemId::wall, items.size()),
                               {centre.x - width / 2, centre.y + kHalfFigure_em * sizes.text},
                               text,
@@ -114,23 +110,10 @@ void add_angle(const Point& corner, const Point& way, const Point& other,
                               context.font.face()});
 }
 
-/// Of all sides that meet.
-void add_angles(const std::vector<Side>& sides, const DrawingContext& context,
-                std::vector<DrawItem>& items) {
-  constexpr double kSamePlace_px = 0.5;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    for (std::size_t j = 0; j < sides.size(); ++j) {
-      const Point corner = sides[i][1];
-      if (i == j || length(sides[j][0] - corner) > kSamePlace_px) continue;
-      add_angle(corner, sides[i][0] - corner, sides[j][1] - corner, context, items);
-    }
-  }
-}
-
 std::vector<DrawItem> walls_of_plane(const DrawingContext& context) {
   const std::vector<Wall>& walls = context.scene.system.walls;
   std::vector<DrawItem> items;
-  std::vector<Side> sides;
+  std::vector<WallMap> seen;
   for (const Wall& wall : walls) {
     const WallPart part = part_of(wall, walls, context.scene.view);
     if (!(part.to > part.from)) continue;
@@ -138,12 +121,19 @@ std::vector<DrawItem> walls_of_plane(const DrawingContext& context) {
       return context.layout.at(to_double(wall.point[0]) + s * to_double(wall.normal[1]),
                                to_double(wall.point[1]) - s * to_double(wall.normal[0]));
     };
-    sides.push_back({at(part.from), at(part.to)});
+    seen.emplace_back(at(part.from), at(part.to));
     // The lines of walls that meet overlap.
-    items.emplace_back(wall_plate(nth(ItemId::wall, items.size()), sides.back()[0], sides.back()[1],
+    items.emplace_back(wall_plate(nth(ItemId::wall, items.size()), at(part.from), at(part.to),
                                   context, context.sizes.wall_line / 2));
   }
-  if (context.scene.show.has(Overlay::angles)) add_angles(sides, context, items);
+  if (!context.scene.show.has(Overlay::angles)) return items;
+  constexpr double kSamePlace_px = 0.5;
+  for (const WallMap& first : seen) {
+    for (const WallMap& second : seen) {
+      const bool do_meet = length(second.from - first(first.length, 0)) < kSamePlace_px;
+      if (do_meet) add_angle(first, second, context, items);
+    }
+  }
   return items;
 }
 
