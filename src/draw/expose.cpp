@@ -16,7 +16,7 @@ constexpr double kMaxDwells = 1 << 15;
 /// Distance from one dwell to the next, between which a pixel's light is taken to change evenly.
 /// The error falls with its square, and matters less if the block is in each pixel for less time.
 double spacing_px(double range_px) {
-  const double fine = range_px <= 512 ? 1.0 / 16 : 1.0 / 4;
+  const double fine = range_px <= 64 ? 1.0 / 32 : range_px <= 512 ? 1.0 / 16 : 1.0 / 4;
   return std::max(fine, range_px / kMaxDwells);
 }
 
