@@ -125,7 +125,7 @@ struct EvenMotion {
 
 /// Adds contacts where the blocks are less than a pixel apart.
 void add_contacts(const EvenMotion& motion, std::vector<TouchingBlocks>& contacts) {
-  constexpr double kPerPixel = 16;
+  constexpr double kPerPixel = 32;
   constexpr double kMost = 4096;
   const auto& [right, left, left_width, share] = motion;
   const Travel gap{right.from - left.from - left_width, right.to - left.to - left_width};

@@ -251,6 +251,7 @@ TEST(Theme, AnInkAloneIsMixedWithTheThemesGround) {
 
 std::vector<std::string> notes_of(const Colors& own, const std::optional<RgbColor>& red = {}) {
   Scene scene;
+  scene.view.theme = Theme::article;
   scene.view.colors = own;
   scene.styles[1].color = red;
   return contrast_notes(scene);

@@ -26,7 +26,7 @@ class FilmTest : public testing::Test {
  protected:
   static Script read(const std::string& text) {
     return testing_support::script_of(
-        "view.size = '160x90'\nview.fps = 10\nview.theme = 'article'\n" + text);
+        "view = {size = '160x90', fps = 10, theme = 'article'}\n\n" + text);
   }
   static Film film(const std::string& text) { return Film(read(text)); }
 
