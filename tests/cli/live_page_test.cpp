@@ -154,7 +154,7 @@ TEST_F(LivePageTest, OpensShippedScenesAndStoryboards) {
   for (const char* const scene : {"lecture", "storyboard", "gas", "real-blocks", "three-blocks"}) {
     const std::string file = opened({scene});
     const Arguments render{"render", "--quiet", "--size",     "640x360",
-                           "--fps",  "1",       "--no-sound", "-o"};
+                           "--fps",  "2",       "--no-sound", "-o"};
     output_of(render + Arguments{"a.framehash", scene});
     output_of(render + Arguments{"b.framehash", file});
     EXPECT_EQ(contents("a.framehash"), contents("b.framehash")) << scene;

@@ -26,7 +26,7 @@ class FilmTest : public testing::Test {
  protected:
   static Script read(const std::string& text) {
     return testing_support::script_of(
-        "view = {size = '160x90', fps = 10, theme = 'article'}\n\n" + text);
+        "view.size = '160x90'\nview.fps = 10\nview.theme = 'article'\n" + text);
   }
   static Film film(const std::string& text) { return Film(read(text)); }
 
@@ -198,7 +198,7 @@ TEST_F(FilmTest, FadesHaveToFit) {
                                    std::string("fade = 0.95")}) {
     const auto found = problems(card + card + fades);
     ASSERT_EQ(found.size(), 1U) << fades;
-    EXPECT_TRUE(contains(found.front(), "scene.toml:6: fade = "));
+    EXPECT_TRUE(contains(found.front(), "scene.toml:7: fade = "));
   }
   EXPECT_EQ(problems(card + card + "fade = 0.6\n" + card + "fade = 0.5\n").size(), 1U)
       << "three parts at once";
@@ -211,9 +211,9 @@ TEST_F(FilmTest, ProblemsOfAllPartsAreToldAtOnce) {
                               "'\n[[part]]\nred.velocity = 0\n[[part]]\nview.x = [-1, 30]\n"
                               "[[part]]\ncard = 'a'\nseconds = 1e9\n");
   ASSERT_EQ(found.size(), 3U) << testing::PrintToString(found);
-  EXPECT_TRUE(contains(found[0], "scene.toml:3: card: "));
-  EXPECT_TRUE(contains(found[1], "scene.toml:5: time.to: "));
-  EXPECT_TRUE(contains(found[2], "scene.toml:9: seconds = "));
+  EXPECT_TRUE(contains(found[0], "scene.toml:4: card: "));
+  EXPECT_TRUE(contains(found[1], "scene.toml:6: time.to: "));
+  EXPECT_TRUE(contains(found[2], "scene.toml:10: seconds = "));
 }
 
 TEST_F(FilmTest, RefusesAStoryboardThatWasNotChecked) {
