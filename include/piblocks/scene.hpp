@@ -92,12 +92,15 @@ struct LoupeWindow {
 /// gap between that and red; of others the one that closes first in its window.
 struct Loupe {
   bool is_on = true;
+  /// As wide as most of the frame, above blocks that are a low strip: for what is about the turn.
+  bool is_stage = false;
   /// Without a window it is seen wherever the gap is small, and enlarges by powers of ten. Other
   /// blocks than two beside something immovable need one.
   std::optional<LoupeWindow> window = {};
 };
 
-/// Reads "auto", "off", or "FROM:TO:ZOOM", as "turn-0.01:turn+0.01:100". @throws UsageError
+/// Reads "auto", "stage", "off", or "FROM:TO:ZOOM", as "turn-0.01:turn+0.01:100". @throws
+/// UsageError
 Loupe parse_loupe(std::string_view text);
 /// Exact text, which reads back as the same.
 std::string exact_text(const Loupe& loupe);

@@ -144,11 +144,12 @@ void SceneOptions::add_show() {
   add_text("show.caption", "--caption", "TEXT", "A caption line");
   add_text("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
   add_flag({"show.hits", "--no-hits", "false"}, "No marks where the blocks hit");
-  add_key("show.loupe", "--loupe", "auto|off|FROM:TO:ZOOM",
+  add_key("show.loupe", "--loupe", "auto|stage|off|FROM:TO:ZOOM",
           "An inset that enlarges the gap between wall and red: where it is\n"
-          "small, by powers of ten; or from FROM to TO by ZOOM. Of other blocks\n"
-          "on a line, the gap that closes first from FROM on. FROM and TO as\n"
-          "3.2, turn-0.3, last+1, #314");
+          "small, by powers of ten; the same across most of the frame, above\n"
+          "low blocks; or from FROM to TO by ZOOM. Of other blocks on a line,\n"
+          "the gap that closes first from FROM on. FROM and TO as 3.2,\n"
+          "turn-0.3, last+1, #314");
   add_flag({"red.width", "--width-by-mass", "by-mass"}, "Make red as wide as its mass suggests");
 }
 

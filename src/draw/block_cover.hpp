@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "draw/geometry.hpp"
 
 namespace piblocks {
 
@@ -18,6 +19,7 @@ struct Cover {
   double outer = 0;
   double inner = 0;
   double bars = 0;
+  double inset = 0;  ///< of a row: how far its ends are inside, where corners are round
   bool operator==(const Cover&) const = default;
 };
 
@@ -39,20 +41,27 @@ inline Cover cover_of(double pixel, double begin, double length, double line_px)
 }
 
 /// What a block covers of a pixel.
-struct PixelCover {
-  const ExposedBlock& block;
-  const Cover& column;
-  const Cover& row;
+class PixelCover {
+ public:
+  PixelCover(const ExposedBlock& block, const Cover& column, const Cover& row)
+      : block_(block),
+        outer_(column.outer * row.outer),
+        line_(outer_ - column.inner * row.inner),
+        bars_(column.outer * row.bars) {}
 
   /// A sample after the block's fill, its line and its bars are painted over it, as Cairo does.
   double over(double sample, std::uint8_t Color::*channel) const {
-    const double edge = block.stroke.color.*channel;
-    const double outer = column.outer * row.outer;
-    const double line = outer - column.inner * row.inner;
-    const double filled = sample + outer * (block.fill.*channel - sample);
-    const double edged = filled + line * (edge - filled);
-    return edged + column.outer * row.bars * (edge - edged);
+    const double edge = block_.stroke.color.*channel;
+    const double filled = sample + outer_ * (block_.fill.*channel - sample);
+    const double edged = filled + line_ * (edge - filled);
+    return edged + bars_ * (edge - edged);
   }
+
+ private:
+  const ExposedBlock& block_;
+  double outer_;
+  double line_;
+  double bars_;
 };
 
 /// How a block covers a row, and a column over the time of the exposure.
@@ -74,23 +83,42 @@ class BlockCover {
     for (const Bar& bar : block_.bars) {
       cover.bars += (1 - cover.bars) * overlap(y, bar.y, bar.y + bar.height);
     }
+    const double middle = y + 0.5;
+    cover.inset = corner_inset(block_.corner_px,
+                               std::min(middle - block_.bounds.y, block_.bounds.bottom() - middle));
     return cover;
   }
 
   /// What a block with its left edge at `x` covers of the column from `column` to `column` + 1.
-  Cover of_column(double column, double x) const {
-    return cover_of(column, x, block_.bounds.width, line_px_);
+  /// @param inset  of the row
+  Cover of_column(double column, double x, double inset) const {
+    Cover cover = cover_of(column, x, block_.bounds.width, line_px_);
+    cover.outer = overlap(column, x + inset, x + block_.bounds.width - inset);
+    return cover;
+  }
+
+  /// Whether rows with an inset may have another column than others.
+  bool is_beside_end(double column) const {
+    const bool is_still = block_.is_still();
+    const double from = is_still ? block_.bounds.x : block_.dwells.front().x;
+    const double to = is_still ? block_.bounds.x : block_.dwells.back().x;
+    const auto is_near = [&](double left, double right) {
+      return left - 1 < column && column < right;
+    };
+    const double width = block_.bounds.width;
+    return is_near(from, to + block_.corner_px) ||
+           is_near(from + width - block_.corner_px, to + width);
   }
 
   /// All ways in which the block covers a column; valid until the next call.
-  std::span<const CoverShare> shares_of_column(double column) {
+  std::span<const CoverShare> shares_of_column(double column, double inset) {
     shares_.clear();
     if (block_.is_still()) {
-      const Cover still = of_column(column, block_.bounds.x);
+      const Cover still = of_column(column, block_.bounds.x, inset);
       if (still.outer > 0) shares_.push_back({still, 1});
     } else if (block_.dwells.back().x >= column - block_.bounds.width &&
                block_.dwells.front().x < column + 1) {
-      each_part(column, [&](const Part& part) { add_dwells(column, part); });
+      each_part(column, inset, [&](const Part& part) { add_dwells(column, inset, part); });
     }
     return shares_;
   }
@@ -104,10 +132,17 @@ class BlockCover {
   };
 
   template <typename Visit>
-  void each_part(double column, const Visit& visit) const {
+  void each_part(double column, double inset, const Visit& visit) const {
     const double width = block_.bounds.width;
-    if (line_px_ < 1 || width - 2 * line_px_ < 1) {
+    const double end = std::max(line_px_, inset);
+    if (line_px_ < 1 || width - 2 * end < 1) {
       visit(Part{column - width, column + 1, false});
+      return;
+    }
+    if (inset > 0) {
+      visit(Part{column - width, column + 1 - width + end, false});
+      visit(Part{column + 1 - width + end, column - end, true});
+      visit(Part{column - end, column + 1, false});
       return;
     }
     // The column has, in this order: the block's right edge, only its line, the line's inner
@@ -126,16 +161,18 @@ class BlockCover {
                                     block_.dwells.begin());
   }
 
-  void add_dwells(double column, const Part& part) {
+  /// One share for all places that are alike. At corners, which are few pixels, one for a few.
+  void add_dwells(double column, double inset, const Part& part) {
+    constexpr std::size_t kFewAtCorner = 4;
     const std::size_t begin = first_at(part.from);
-    if (part.is_alike) {
-      const std::size_t end = first_at(part.to);
-      if (begin >= end) return;
-      shares_.push_back({of_column(column, block_.dwells[begin].x), sums_[end] - sums_[begin]});
-      return;
-    }
-    for (std::size_t i = begin; i < block_.dwells.size() && block_.dwells[i].x < part.to; ++i) {
-      shares_.push_back({of_column(column, block_.dwells[i].x), block_.dwells[i].share});
+    const std::size_t end = first_at(part.to);
+    const std::size_t step = part.is_alike ? std::max(begin + 1, end) - begin
+                             : inset > 0   ? kFewAtCorner
+                                           : 1;
+    for (std::size_t i = begin; i < end; i += step) {
+      const std::size_t next = std::min(i + step, end);
+      const double x = block_.dwells[(i + next - 1) / 2].x;
+      shares_.push_back({of_column(column, x, inset), sums_[next] - sums_[i]});
     }
   }
 

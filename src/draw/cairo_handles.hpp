@@ -17,6 +17,7 @@ struct Released {
 
 using CairoPtr = std::unique_ptr<cairo_t, Released<cairo_destroy>>;
 using CairoSurfacePtr = std::unique_ptr<cairo_surface_t, Released<cairo_surface_destroy>>;
+using CairoPatternPtr = std::unique_ptr<cairo_pattern_t, Released<cairo_pattern_destroy>>;
 using CairoFontFacePtr = std::unique_ptr<cairo_font_face_t, Released<cairo_font_face_destroy>>;
 using CairoScaledFontPtr =
     std::unique_ptr<cairo_scaled_font_t, Released<cairo_scaled_font_destroy>>;

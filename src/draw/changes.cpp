@@ -20,14 +20,16 @@ bool has_rising_ids(const DrawList& list) {
 bool slides(const RectangleItem& before, const RectangleItem& after) {
   const bool dashed = before.stroke && before.stroke->dash_px > 0;
   return !dashed && before.fill == after.fill && before.stroke == after.stroke &&
-         before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height;
+         before.corner_px == after.corner_px && before.bounds.y == after.bounds.y &&
+         before.bounds.height == after.bounds.height;
 }
 
 /// The same of an exposed block.
 bool slides(const ExposedBlock& before, const ExposedBlock& after) {
   return before.fill == after.fill && before.stroke == after.stroke && before.bars == after.bars &&
-         before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height &&
-         before.bounds.width == after.bounds.width && before.is_still() == after.is_still();
+         before.corner_px == after.corner_px && before.bounds.y == after.bounds.y &&
+         before.bounds.height == after.bounds.height && before.bounds.width == after.bounds.width &&
+         before.is_still() == after.is_still();
 }
 
 /// Whether only the second end of a level line changes. What stays of it has the same pixels.
@@ -133,11 +135,11 @@ class Comparison {
       add(b);
       return;
     }
-    const double line = before.stroke ? before.stroke->width_px : 0;
+    const double end = std::max(before.stroke ? before.stroke->width_px : 0, before.corner_px);
     const auto [left, next_left] = std::minmax(a.x, b.x);
     const auto [last_right, right] = std::minmax({a.right(), b.right()});
-    add(Rect::around({left, a.y}, {next_left + line, a.bottom()}));
-    add(Rect::around({last_right - line, a.y}, {right, a.bottom()}));
+    add(Rect::around({left, a.y}, {next_left + end, a.bottom()}));
+    add(Rect::around({last_right - end, a.y}, {right, a.bottom()}));
   }
 
   void compare(const PathItem& before, const PathItem& after) {
@@ -187,9 +189,9 @@ class Comparison {
     const double from = std::min(a.x, b.x);
     const double to = std::max(a.right(), b.right());
     const double width = before.bounds.width;
-    const double line = before.stroke.width_px;
-    add(from, to - width + line, rows);
-    add(from + width - line, to, rows);
+    const double end = std::max(before.stroke.width_px, before.corner_px);
+    add(from, to - width + end, rows);
+    add(from + width - end, to, rows);
   }
 
   /// All shapes are looked at in the same moments.

@@ -122,7 +122,7 @@ class Composer {
     const Show& show = scene_.show;
     if (has_labels(context_)) add(body_labels(context_));
     if (show.has(Overlay::velocities)) add(velocity_arrows(context_));
-    if (show.hits && scene_.view.theme != Theme::article) add(hit_marks(context_));
+    if (context_.shows_hits()) add(hit_marks(context_));
   }
 
   /// Discs that leave what is shown are cut off at its edge, so that they hide no text.

@@ -54,6 +54,11 @@ struct FrameState {
   /// Where each body has been, in the order of time; filled in as far as FrameNeeds asks for it.
   std::vector<std::vector<PathPoint>> trails = {};
 
+  /// What another moment of the video is drawn from, so many seconds from this one; the first or
+  /// the last if the video ends before. Only state, time and gaps are filled in. Empty for a still
+  /// outside of its video, or unless FrameNeeds asks for it. Valid as long as log and video are.
+  std::function<FrameState(double from_now_s)> moment = {};
+
   // Not filled in for a still outside of its video, or if no drawable reads them.
   double video_s = 0;          ///< of the frame, since its scene began
   std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHitsPerSecond
@@ -64,6 +69,7 @@ struct FrameState {
 /// The costly parts of a FrameState. They are computed only for drawables that read them.
 struct FrameNeeds {
   bool gaps = false;
+  bool moments = false;
   bool hits = false;     ///< and hits_per_s
   int trail_s = 0;       ///< of video at its usual speed that trails go back; 0 for none
   bool video_s = false;  ///< in stills too, which have to look it up
@@ -71,6 +77,7 @@ struct FrameNeeds {
 
   FrameNeeds& operator|=(const FrameNeeds& more) {
     gaps |= more.gaps;
+    moments |= more.moments;
     hits |= more.hits;
     trail_s = std::max(trail_s, more.trail_s);
     video_s |= more.video_s;

@@ -26,6 +26,8 @@ struct RectangleItem {
   Rect bounds;
   std::optional<Color> fill;
   std::optional<Stroke> stroke;
+  /// Radius of the corners; hardly more than the width of the stroke, which is solid then.
+  double corner_px = 0;
   bool operator==(const RectangleItem&) const = default;
 };
 
@@ -97,6 +99,22 @@ struct DiscItem {
   bool operator==(const DiscItem&) const = default;
 };
 
+/// A light that is strongest at its centre and fades to nothing at its radius.
+struct GlowItem {
+  ItemId id = ItemId::hits;
+  Rect bounds;  ///< in whole pixels; the glow is cut off at them
+  Point centre;
+  double radius = 0;
+  Color color;  ///< at the centre
+
+  /// How much of the color is left at a distance from the centre, in radii.
+  static constexpr double strength(double distance) {
+    const double inside = distance < 1 ? 1 - distance * distance : 0;
+    return inside * inside;
+  }
+  bool operator==(const GlowItem&) const = default;
+};
+
 /// What moves less is taken to stay. Far below what a pixel shows, far above roundings.
 inline constexpr double kStill_px = 1e-6;
 
@@ -118,8 +136,9 @@ struct Bar {
 struct ExposedBlock {
   Rect bounds;  ///< at the picture's instant
   Color fill;
-  Stroke stroke;          ///< solid
-  std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
+  Stroke stroke;               ///< solid
+  double corner_px = 0;        ///< as of a rectangle
+  std::vector<Bar> bars = {};  ///< in the stroke's colour, inside the bounds
   /// From left to right; none if it stays. Shares add up to 1 less those outside the frame.
   std::vector<Dwell> dwells = {};
 
@@ -199,8 +218,8 @@ struct GroupItem {
   friend bool operator==(const GroupItem& a, const GroupItem& b);
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiscItem, ImageItem, PlateItem,
-                              GroupItem, ExposedBlocksItem, MovingShapesItem>;
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiscItem, GlowItem, ImageItem,
+                              PlateItem, GroupItem, ExposedBlocksItem, MovingShapesItem>;
 
 struct Plate {
   std::vector<DrawItem> items;  ///< from back to front; none that is exposed

@@ -173,7 +173,7 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
 }
 
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items) {
-  items.emplace_back(RectangleItem{id, block.bounds, block.fill, block.stroke});
+  items.emplace_back(RectangleItem{id, block.bounds, block.fill, block.stroke, block.corner_px});
   for (std::size_t i = 0; i < block.bars.size(); ++i) {
     const Bar& bar = block.bars[i];
     items.emplace_back(RectangleItem{nth(id, i + 1),

@@ -29,8 +29,6 @@ constexpr double kBelowHeader = 0.02;
 constexpr double kBelowStage = 0.045;
 constexpr double kLeastStage = 0.2;
 constexpr double kLeastRowStage = 0.12;
-/// A picture lower than this is a row of a split screen.
-constexpr double kRow = 0.55;
 /// In parts of its largest size: a smaller count has its label above it, and more room.
 constexpr double kLeastBesideLabel = 0.6;
 /// The counter's part of a row's width, at most.
@@ -85,7 +83,8 @@ class FramePlanner {
         bottom_(view_.height_px) {}
 
   FramePlan run(double read_outs_height_px) {
-    if (counter_ && view_.height_px < kRow * sizes_.short_side) return row(read_outs_height_px);
+    if (counter_ && view_.height_px < style::kRow * sizes_.short_side)
+      return row(read_outs_height_px);
     place_axis_on(view_.width_px);
     place_header();
     place_foot();
@@ -142,31 +141,17 @@ class FramePlanner {
     // Of equal width where counts are short, so that rows have one scale.
     const double counter_width =
         std::max(set_count_size(kMostCounter * (right_ - left_)), kRowCounter * (right_ - left_));
-    CounterPlace& place = plan_.counter;
-    place.right_px = right_;
-    place.baseline_px = std::round(view_.height_px / 2.0 + Font::kCapHeight_em * place.size_px / 4);
-    place_pi();
-    place.label_baseline_px = place.baseline_px;
-    if (place.has_label && has_label_above_) {
-      place.label_baseline_px -= Font::kCapHeight_em * place.size_px + kPiStep * sizes_.text / 2;
-    }
-    place.pi_row_left_px =
-        right_ - std::max({counter_width, counter_->pi_px, counter_->slow_motion_px});
-    top_ = 0.75 * sizes_.gap;
-    place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
-    if (!title_.empty()) {
-      const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
-      const double room = right_ - left_ - counter_width - sizes_.gap;
-      // A second line would have no room.
-      if (context_.font.width_em(title_) * sizes_.title > room) {
-        throw_too_long("show.title", title_, room);
-      }
-      add_line(ItemId::title, title_, baseline, sizes_.title);
-      top_ = baseline + kBelowBaseline * sizes_.title;
-    }
+    top_ = style::kRowMargin * sizes_.short_side;
+    plan_.counter.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
+    const double room = right_ - left_ - counter_width - sizes_.gap;
+    const bool is_title_beside = context_.font.width_em(title_) * sizes_.title <= room;
+    // Above the counter a long title has all the width, unless slow motion has its label there.
+    if (!title_.empty()) place_row_title(counter_->slow_motion_px > 0 ? room : right_ - left_);
+    place_row_counter(is_title_beside ? 0 : top_, counter_width);
     // Beside the stage the counter is as high as the row.
     plan_.header_bottom_px = view_.height_px;
-    const double height = view_.height_px - sizes_.gap / 2 - top_ - read_outs_height_px;
+    const double height =
+        view_.height_px - style::kRowMargin * sizes_.short_side - top_ - read_outs_height_px;
     const bool is_full = !show_.panels.empty() || !caption_.empty() || !show_.logo.empty();
     if (is_full || height < kLeastRowStage * sizes_.short_side) throw_no_room();
     // The floor ends a margin before its area does.
@@ -175,6 +160,31 @@ class FramePlanner {
     place_axis_on(width);
     plan_.read_outs_top_px = top_ + height;
     return std::move(plan_);
+  }
+
+  void place_row_title(double room_px) {
+    // A second line would have no room.
+    if (context_.font.width_em(title_) * sizes_.title > room_px) {
+      throw_too_long("show.title", title_, room_px);
+    }
+    const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
+    add_line(ItemId::title, title_, baseline, sizes_.title);
+    top_ = baseline + kBelowBaseline * sizes_.title;
+  }
+
+  /// In the middle of the row, or below a title. @param width_px  with the label
+  void place_row_counter(double above_px, double width_px) {
+    CounterPlace& place = plan_.counter;
+    const double figures_px = Font::kCapHeight_em * place.size_px;
+    const bool is_label_above = place.has_label && has_label_above_;
+    const double label_px = is_label_above ? kPiStep * sizes_.text / 2 : 0;
+    const double least = above_px + figures_px + 2 * label_px;
+    place.right_px = right_;
+    place.baseline_px = std::round(std::max(view_.height_px / 2.0 + figures_px / 4, least));
+    place_pi();
+    place.label_baseline_px = place.baseline_px;
+    if (is_label_above) place.label_baseline_px -= figures_px + label_px;
+    place.pi_row_left_px = right_ - std::max({width_px, counter_->pi_px, counter_->slow_motion_px});
   }
 
   void place_axis_on(double stage_width_px) {

@@ -99,6 +99,14 @@ struct Rect {
   }
 };
 
+/// How far a round corner is inside the side of its rectangle; 0 where nobody would see it.
+/// @param from_end  of the place on the side, from the nearer end
+inline double corner_inset(double radius, double from_end) {
+  const double left = radius - std::max(0.0, from_end);
+  const double inset = left > 0 ? radius - std::sqrt(radius * radius - left * left) : 0;
+  return inset > 0.125 ? inset : 0;
+}
+
 inline Rect to_rect(const PixelRect& r) {
   return {double(r.x_px), double(r.y_px), double(r.width_px), double(r.height_px)};
 }

@@ -45,6 +45,7 @@ struct Layout {
   Point origin;                         ///< pixel position of the scene's (0, 0)
   double visible_right_px = 0;          ///< blocks are seen up to here
   double line_px = 1;                   ///< of the bodies' outlines
+  double corner_px = 0;                 ///< radius of the blocks' corners
   std::vector<BlockShape> shapes = {};  ///< of all bodies; discs are as high as wide
   CountLine count_line = {};            ///< of the article's picture alone
 
@@ -93,6 +94,7 @@ struct LayoutContext {
   /// Nothing where the scene has other bodies.
   const PairLog* pair() const { return log.pair(); }
   bool is_plane() const noexcept { return scene.system.dimensions == 2; }
+  bool shows_hits() const noexcept { return scene.show.hits && scene.view.theme != Theme::article; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };
 

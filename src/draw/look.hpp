@@ -88,6 +88,11 @@ namespace style {
 inline constexpr double kMargin = 0.06;
 inline constexpr double kGap = 0.04;  ///< between things side by side
 
+// A picture lower than this is a row of a split screen. It has less of a margin above and below;
+// the rest of it is around all rows.
+inline constexpr double kRow = 0.55;
+inline constexpr double kRowMargin = 0.03;
+
 // Sizes of type. Nothing is smaller than kLeastType: what does not fit is left out or rejected.
 inline constexpr double kCounter = 0.15;
 inline constexpr double kTitle = 0.055;
@@ -109,6 +114,7 @@ inline constexpr double kWedgeFill = 0.8;
 
 inline constexpr double kProtractor = 0.38;  ///< radius of the arc around equal angles, at most
 
+inline constexpr double kCorner = 0.004;  ///< radius of blocks' corners in the lecture themes
 inline constexpr double kWallWidth = 0.025;
 inline constexpr double kHitReach = 0.06;  ///< how far the mark of a hit grows
 inline constexpr double kLoupeWidth = 0.36;
@@ -168,7 +174,8 @@ struct Sizes {
         text(type(style::kText)),
         wall_line(std::max(1.0, style::kWallLine * short_side)),
         data_line(std::max(1.0, style::kDataLine * short_side)),
-        grid_line(std::max(1.0, style::kGridLine * short_side)) {}
+        grid_line(std::max(1.0, style::kGridLine * short_side)),
+        corner(is_lecture(view.theme) ? style::kCorner * short_side : 0) {}
 
   double type(double fraction) const {
     return std::max(style::kLeastText_px, fraction * short_side);
@@ -185,6 +192,7 @@ struct Sizes {
   double wall_line;
   double data_line;
   double grid_line;
+  double corner;  ///< radius of blocks' corners
 };
 
 }  // namespace piblocks

@@ -201,9 +201,16 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
   const bool is_wide_frame = view.width_px > view.height_px;
   const bool is_wide = split == Split::automatic ? is_wide_frame : split == Split::columns;
   is_in_rows_ = !is_wide;
-  const int length = is_wide ? view.width_px : view.height_px;
+  const Sizes sizes(view);
+  const bool has_low_rows =
+      !is_wide && view.height_px < double(count) * style::kRow * sizes.short_side;
+  const int outer_px =
+      has_low_rows
+          ? static_cast<int>(std::lround(sizes.margin - style::kRowMargin * sizes.short_side))
+          : 0;
+  const int length = (is_wide ? view.width_px : view.height_px) - 2 * outer_px;
   const int breadth = is_wide ? view.height_px : view.width_px;
-  const int line_px = std::max(1, static_cast<int>(std::lround(Sizes(view).data_line)));
+  const int line_px = std::max(1, static_cast<int>(std::lround(sizes.data_line)));
   const int n = static_cast<int>(count);
   const int cell_px = (length - (n - 1) * line_px) / n;
   if (std::min(cell_px, breadth) < kLeastCell_px) {
@@ -214,9 +221,9 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
     return is_wide ? PixelRect{along, across, along_px, across_px}
                    : PixelRect{across, along, across_px, along_px};
   };
-  const int margin = static_cast<int>(std::lround(Sizes(view).margin));
+  const int margin = static_cast<int>(std::lround(sizes.margin));
   for (int i = 0; i < n; ++i) {
-    const int at = i * (cell_px + line_px);
+    const int at = outer_px + i * (cell_px + line_px);
     cells_.push_back(place(at, 0, cell_px, breadth));
     if (i + 1 == n) break;
     empty_.items.emplace_back(

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "draw/block_cover.hpp"
@@ -13,8 +14,15 @@
 namespace piblocks {
 namespace {
 
-/// What each of two blocks covers of a row.
-using RowCover = std::array<Cover, 2>;
+/// Red, green and blue.
+using Rgb = std::array<double, 3>;
+
+/// A kind of rows.
+struct RowCover {
+  std::array<Cover, 2> of;                ///< what each of two blocks covers of it
+  std::array<std::size_t, 2> inset;       ///< the number of each block's inset
+  std::array<std::size_t, 2> alike = {};  ///< the first kind of which a block covers the same
+};
 
 /// One column after another, from left to right.
 class ExposedColumn {
@@ -27,12 +35,35 @@ class ExposedColumn {
 
   /// Tells rows apart by how the blocks cover them: of a picture there are few kinds.
   std::size_t kind_of_row(int y) {
-    const RowCover cover{blocks_[0].of_row(y), blocks_[1].of_row(y)};
-    const auto found = std::ranges::find(rows_, cover);
-    if (found != rows_.end()) return static_cast<std::size_t>(found - rows_.begin());
-    rows_.push_back(cover);
+    const std::array<Cover, 2> cover{blocks_[0].of_row(y), blocks_[1].of_row(y)};
+    // Most rows are like the one above.
+    for (std::size_t kind = rows_.size(); kind-- > 0;) {
+      if (rows_[kind].of == cover) return kind;
+    }
+    RowCover row{cover,
+                 {number_of(cover[0].inset, insets_[0]), number_of(cover[1].inset, insets_[1])}};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto is_alike = [&](const RowCover& other) { return other.of[i] == cover[i]; };
+      row.alike[i] =
+          static_cast<std::size_t>(std::ranges::find_if(rows_, is_alike) - rows_.begin());
+    }
+    rows_.push_back(row);
+    known_.emplace_back();
     return rows_.size() - 1;
   }
+
+  /// Whether rows of both kinds are alike in columns that are not beside an end.
+  bool are_alike_inside(std::size_t kind, std::size_t other) const {
+    const auto is_alike = [](Cover a, const Cover& b) {
+      a.inset = b.inset;
+      return a == b;
+    };
+    return is_alike(rows_[kind].of[0], rows_[other].of[0]) &&
+           is_alike(rows_[kind].of[1], rows_[other].of[1]);
+  }
+
+  /// Whether the column is beside an end of a block, where corners are.
+  bool is_beside_end() const { return is_beside_end_[0] || is_beside_end_[1]; }
 
   /// Turns to the column from `x` to `x` + 1. False if no moving block is ever in it.
   bool enter(int x) {
@@ -49,33 +80,45 @@ class ExposedColumn {
     contacts_ = {at(x), at(x + 1.0)};
     is_new |= !contacts_.empty();
     for (std::size_t i = 0; i < 2; ++i) {
-      std::span<const CoverShare> shares;
-      if (are_here[i]) shares = blocks_[i].shares_of_column(x);
-      is_new |= replace(shares_[i], shares);
+      const bool was_beside_end = std::exchange(is_beside_end_[i], blocks_[i].is_beside_end(x));
+      is_new |= was_beside_end != is_beside_end_[i];
+      shares_[i].resize(insets_[i].size());
+      for (std::size_t n = 0; n < (is_beside_end_[i] ? insets_[i].size() : 1); ++n) {
+        std::span<const CoverShare> shares;
+        if (are_here[i]) shares = blocks_[i].shares_of_column(x, insets_[i][n]);
+        is_new |= replace(shares_[i][n], shares);
+      }
     }
-    if (is_new) known_.clear();
-    return !shares_[0].empty() || !shares_[1].empty();
+    if (is_new) std::ranges::fill(known_, std::nullopt);
+    return !shares_[0][0].empty() || !shares_[1][0].empty();
   }
 
   /// The pixel of a row over a background; both 0x00RRGGBB.
   std::uint32_t pixel(std::size_t kind, std::uint32_t background) {
-    for (const Known& known : known_) {
-      if (known.background == background && known.row == kind) return known.pixel;
+    // Where only one block is, the other does not matter.
+    if (contacts_.empty() && shares_[0][0].empty()) kind = rows_[kind].alike[1];
+    if (contacts_.empty() && shares_[1][0].empty()) kind = rows_[kind].alike[0];
+    std::optional<Known>& known = known_[kind];
+    if (known && known->background == background) return known->pixel;
+    const Rgb lights = lights_of(rows_[kind], background);
+    std::uint32_t pixel = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      pixel |= std::uint32_t{light_.sample(lights[i])} << (16 - 8 * i);
     }
-    const RowCover& row = rows_[kind];
-    const auto sample = [&](int shift, std::uint8_t Color::*channel) {
-      const double light = light_of(row, background >> shift & 0xFF, channel);
-      return static_cast<std::uint32_t>(light_.sample(light)) << shift;
-    };
-    const std::uint32_t pixel =
-        sample(16, &Color::red) | sample(8, &Color::green) | sample(0, &Color::blue);
-    known_.push_back({kind, background, pixel});
+    known = {background, pixel};
     return pixel;
   }
 
  private:
   static bool is_in(const PixelRect& pixels, int x) {
     return pixels.x_px <= x && x < pixels.right_px();
+  }
+
+  static std::size_t number_of(double inset, std::vector<double>& insets) {
+    const auto found = std::ranges::find(insets, inset);
+    const auto number = static_cast<std::size_t>(found - insets.begin());
+    if (found == insets.end()) insets.push_back(inset);
+    return number;
   }
 
   /// @returns whether that changes anything
@@ -87,27 +130,38 @@ class ExposedColumn {
 
   /// Each block changes the light behind it by its share of time. Where both are in one pixel at
   /// the same time, these changes do not add up: contacts correct that.
-  double light_of(const RowCover& row, double background, std::uint8_t Color::*channel) const {
-    const double plain = light_.of(background);
-    double sum = plain;
+  Rgb lights_of(const RowCover& row, std::uint32_t background) const {
+    constexpr std::array kChannels{&Color::red, &Color::green, &Color::blue};
+    Rgb samples{};
+    Rgb plain{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      samples[i] = background >> (16 - 8 * i) & 0xFF;
+      plain[i] = light_.of(samples[i]);
+    }
+    Rgb sums = plain;
     const std::array<const ExposedBlock*, 2> blocks{&item_.behind, &item_.front};
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (const auto& [cover, share] : shares_[i]) {
-        const PixelCover pixel{*blocks[i], cover, row[i]};
-        sum += share * (light_.of(pixel.over(background, channel)) - plain);
+    for (std::size_t n = 0; n < 2; ++n) {
+      for (const auto& [cover, share] : shares_[n][is_beside_end_[n] ? row.inset[n] : 0]) {
+        const PixelCover pixel(*blocks[n], cover, row.of[n]);
+        for (std::size_t i = 0; i < 3; ++i) {
+          sums[i] += share * (light_.of(pixel.over(samples[i], kChannels[i])) - plain[i]);
+        }
       }
     }
     for (const auto& [behind_x, front_x, share] : contacts_) {
-      const Cover behind_column = blocks_[0].of_column(x_, behind_x);
-      const Cover front_column = blocks_[1].of_column(x_, front_x);
-      const PixelCover over{item_.front, front_column, row[1]};
-      const double only_behind =
-          PixelCover{item_.behind, behind_column, row[0]}.over(background, channel);
-      const double only_front = over.over(background, channel);
-      const double both = over.over(only_behind, channel);
-      sum += share * (light_.of(both) - light_.of(only_behind) - light_.of(only_front) + plain);
+      const PixelCover behind(item_.behind, blocks_[0].of_column(x_, behind_x, row.of[0].inset),
+                              row.of[0]);
+      const PixelCover front(item_.front, blocks_[1].of_column(x_, front_x, row.of[1].inset),
+                             row.of[1]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double only_behind = behind.over(samples[i], kChannels[i]);
+        const double only_front = front.over(samples[i], kChannels[i]);
+        const double both = front.over(only_behind, kChannels[i]);
+        sums[i] +=
+            share * (light_.of(both) - light_.of(only_behind) - light_.of(only_front) + plain[i]);
+      }
     }
-    return sum;
+    return sums;
   }
 
   const ExposedBlocksItem& item_;
@@ -115,16 +169,17 @@ class ExposedColumn {
   // Of both blocks.
   std::array<BlockCover, 2> blocks_;
   std::array<PixelRect, 2> pixels_;
-  std::array<std::vector<CoverShare>, 2> shares_;
+  std::array<std::vector<double>, 2> insets_{{{0.0}, {0.0}}};
+  std::array<std::vector<std::vector<CoverShare>>, 2> shares_;  // for each inset
+  std::array<bool, 2> is_beside_end_{};
   std::vector<RowCover> rows_;  // of each kind
   std::span<const TouchingBlocks> contacts_;
   int x_ = 0;
   struct Known {
-    std::size_t row = 0;  // its kind
     std::uint32_t background = 0;
     std::uint32_t pixel = 0;
   };
-  std::vector<Known> known_;  // of this column and those like it before
+  std::vector<std::optional<Known>> known_;  // of each kind, in this column and those before
 };
 
 /// Columns from `begin` to before `end`.
@@ -151,9 +206,10 @@ class ExposedArea {
     find_rows(column);
     for (int x = 0; x < area_.width_px; ++x) {
       if (!column.enter(area_.x_px + x)) continue;
-      if (runs_.empty() || runs_.back().end != x) runs_.push_back({x, x});
-      runs_.back().end = x + 1;
-      for (const auto& [y, kind] : unlike_) {
+      add(runs_, x);
+      if (!column.is_beside_end()) add(inner_runs_, x);
+      for (const auto& [y, kind, is_alike_inside] : unlike_) {
+        if (is_alike_inside && !column.is_beside_end()) continue;
         const std::uint32_t background = background_row(y)[x];
         rows_[y][x] = (background & 0xFF000000U) | column.pixel(kind, background & 0xFFFFFFU);
       }
@@ -165,7 +221,13 @@ class ExposedArea {
   struct Row {
     std::size_t y = 0;
     std::size_t kind = 0;
+    bool is_alike_inside = false;  // where columns are not beside an end
   };
+
+  static void add(std::vector<ColumnRun>& runs, int x) {
+    if (runs.empty() || runs.back().end != x) runs.push_back({x, x});
+    runs.back().end = x + 1;
+  }
 
   const std::uint32_t* background_row(std::size_t y) const {
     return background_.data() + y * static_cast<std::size_t>(area_.width_px);
@@ -173,21 +235,26 @@ class ExposedArea {
   void find_rows(ExposedColumn& column) {
     for (std::size_t y = 0; y < rows_.size(); ++y) {
       const std::size_t kind = column.kind_of_row(area_.y_px + static_cast<int>(y));
-      const bool is_alike =
-          y > 0 && kind == unlike_.back().kind &&
+      const bool has_background_above =
+          y > 0 &&
           std::equal(background_row(y), background_row(y) + area_.width_px, background_row(y - 1));
-      if (!is_alike) unlike_.push_back({y, kind});
+      if (has_background_above && kind == unlike_.back().kind) continue;
+      const bool is_alike_inside =
+          has_background_above && column.are_alike_inside(kind, unlike_.back().kind);
+      unlike_.push_back({y, kind, is_alike_inside});
     }
   }
   void copy_rows() {
     for (std::size_t i = 0; i < unlike_.size(); ++i) {
+      if (unlike_[i].is_alike_inside) copy_from_above(unlike_[i].y, inner_runs_);
       const std::size_t end = i + 1 < unlike_.size() ? unlike_[i + 1].y : rows_.size();
-      for (std::size_t y = unlike_[i].y + 1; y < end; ++y) {
-        const std::uint32_t* const above = rows_[y - 1];
-        for (const ColumnRun& run : runs_) {
-          std::copy(above + run.begin, above + run.end, rows_[y] + run.begin);
-        }
-      }
+      for (std::size_t y = unlike_[i].y + 1; y < end; ++y) copy_from_above(y, runs_);
+    }
+  }
+  void copy_from_above(std::size_t y, const std::vector<ColumnRun>& runs) {
+    const std::uint32_t* const above = rows_[y - 1];
+    for (const ColumnRun& run : runs) {
+      std::copy(above + run.begin, above + run.end, rows_[y] + run.begin);
     }
   }
 
@@ -196,6 +263,7 @@ class ExposedArea {
   std::vector<std::uint32_t*> rows_;
   std::vector<Row> unlike_;      // the row above, in what the blocks cover or in the background
   std::vector<ColumnRun> runs_;  // with blocks in them
+  std::vector<ColumnRun> inner_runs_;  // of these, not beside an end of a block
 };
 
 }  // namespace

@@ -146,13 +146,13 @@ class MovingBlock {
                  const Edge& edge) const {
     const Cover row = cover_.of_row(y);
     const double right = at.x + block_.bounds.width;
-    const double line = cover_.line_px();
+    const double end = std::max(cover_.line_px(), row.inset);
     const Run run = cut({whole(std::floor(at.x)), whole(std::ceil(right))}, columns);
-    Run inside{whole(std::ceil(at.x + line)), whole(std::floor(right - line))};
+    Run inside{whole(std::ceil(at.x + end)), whole(std::floor(right - end))};
     if (row.outer < 1 || inside.begin >= inside.end) inside = {run.end, run.end};
     inside = cut(inside, run);
     const auto paint = [&](int x) {
-      const Cover column = cover_.of_column(x, at.x);
+      const Cover column = cover_.of_column(x, at.x, row.inset);
       edge(x, [&](const Rgb& behind) { return over(behind, column, row); });
     };
     for (int x = run.begin; x < inside.begin; ++x) paint(x);
@@ -162,7 +162,7 @@ class MovingBlock {
 
  private:
   Rgb over(const Rgb& behind, const Cover& column, const Cover& row) const {
-    const PixelCover pixel{block_, column, row};
+    const PixelCover pixel(block_, column, row);
     return {pixel.over(behind[0], &Color::red), pixel.over(behind[1], &Color::green),
             pixel.over(behind[2], &Color::blue)};
   }

@@ -26,6 +26,70 @@ void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px
   cairo_stroke(&cr);
 }
 
+/// The rows of pixels of a rectangle with round corners: one after the other at the corners, and
+/// what is between at once. Calls visit(strip), which reaches from side to side.
+template <typename Visit>
+void each_strip(const Rect& bounds, double corner_px, const Visit& visit) {
+  const double top = std::min(std::ceil(bounds.y + corner_px), bounds.bottom());
+  const double bottom = std::max(std::floor(bounds.bottom() - corner_px), top);
+  for (double y = bounds.y; y < bounds.bottom();) {
+    const double next =
+        y == top && top < bottom ? bottom : std::min(std::floor(y) + 1, bounds.bottom());
+    const double middle = (y + next) / 2;
+    const double inset =
+        corner_inset(corner_px, std::min(middle - bounds.y, bounds.bottom() - middle));
+    visit(Rect{bounds.x + inset, y, bounds.width - 2 * inset, next - y});
+    y = next;
+  }
+}
+
+void add_rectangle(cairo_t& cr, const Rect& r) {
+  cairo_rectangle(&cr, r.x, r.y, r.width, r.height);
+}
+
+/// The same rows as of a block that moves.
+void paint_round_pixels(cairo_t& cr, const RectangleItem& item) {
+  const Rect& bounds = item.bounds;
+  if (item.fill) {
+    each_strip(bounds, item.corner_px, [&](const Rect& strip) { add_rectangle(cr, strip); });
+    set_color(cr, *item.fill);
+    cairo_fill(&cr);
+  }
+  if (!item.stroke) return;
+  const double line = std::min({item.stroke->width_px, bounds.width, bounds.height});
+  each_strip(bounds, item.corner_px, [&](const Rect& strip) {
+    const bool is_inside = bounds.y + line <= strip.y && strip.bottom() <= bounds.bottom() - line;
+    const double left = bounds.x + line;
+    const double right = bounds.right() - line;
+    if (!is_inside || left >= right) return add_rectangle(cr, strip);
+    add_rectangle(cr, {strip.x, strip.y, left - strip.x, strip.height});
+    add_rectangle(cr, {right, strip.y, strip.right() - right, strip.height});
+  });
+  set_color(cr, item.stroke->color);
+  cairo_fill(&cr);
+}
+
+/// A rectangle with round corners as a path.
+void add_round_rectangle(cairo_t& cr, const Rect& bounds, double radius) {
+  constexpr double kHandle = 0.5522847498307936;  // 4/3 tan(pi / 8)
+  const std::vector<Point> corners = bounds.corners();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Point& corner = corners[i];
+    const auto towards = [&](const Point& to, double px) {
+      return corner + px / length(to - corner) * (to - corner);
+    };
+    const Point& before = corners[(i + 3) % 4];
+    const Point& after = corners[(i + 1) % 4];
+    const Point from = towards(before, radius);
+    const Point out = towards(before, (1 - kHandle) * radius);
+    const Point in = towards(after, (1 - kHandle) * radius);
+    const Point to = towards(after, radius);
+    cairo_line_to(&cr, from.x, from.y);
+    cairo_curve_to(&cr, out.x, out.y, in.x, in.y, to.x, to.y);
+  }
+  cairo_close_path(&cr);
+}
+
 void stroke_inside(cairo_t& cr, const Rect& bounds, const Stroke& stroke) {
   set_color(cr, stroke.color);
   const double width_px = std::min({stroke.width_px, bounds.width, bounds.height});
@@ -59,11 +123,6 @@ Rect within_reach(const Rect& r) {
   const double y = within_reach(r.y);
   if (x == r.x && y == r.y && r.width <= kMaxSide_px && r.height <= kMaxSide_px) return r;
   return {x, y, within_reach(r.right()) - x, within_reach(r.bottom()) - y};
-}
-
-/// Vector files have lines and circles; only pixels need polygons.
-bool has_pixels(cairo_t& cr) {
-  return cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
 }
 
 void fill(cairo_t& cr, const Color& color) {
@@ -145,8 +204,25 @@ void set_color(cairo_t& cr, const Color& color) {
   }
 }
 
+bool has_pixels(cairo_t& cr) {
+  return cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+}
+
+/// With a line inside.
+void paint_round(cairo_t& cr, const RectangleItem& item) {
+  if (has_pixels(cr)) return paint_round_pixels(cr, item);
+  add_round_rectangle(cr, item.bounds, item.corner_px);
+  fill_and_stroke(cr, item.fill, std::nullopt);
+  if (!item.stroke) return;
+  const double half = std::min(item.stroke->width_px / 2, item.corner_px);
+  add_round_rectangle(cr, item.bounds.grown(-half), item.corner_px - half);
+  fill_and_stroke(cr, std::nullopt, item.stroke);
+}
+
 void paint_shape(cairo_t& cr, const RectangleItem& item) {
   const Rect bounds = within_reach(item.bounds);
+  const double corner_px = std::min({item.corner_px, bounds.width / 2, bounds.height / 2});
+  if (corner_px > 0) return paint_round(cr, {item.id, bounds, item.fill, item.stroke, corner_px});
   if (item.fill) {
     set_color(cr, *item.fill);
     cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
@@ -189,6 +265,22 @@ void paint_shape(cairo_t& cr, const DiscItem& item) {
     }
     fill(cr, item.stroke->color);
   }
+}
+
+void paint_shape(cairo_t& cr, const GlowItem& item) {
+  constexpr int kStops = 8;
+  const auto& [x, y] = item.centre;
+  const CairoPatternPtr light(cairo_pattern_create_radial(x, y, 0, x, y, item.radius));
+  const Color& color = item.color;
+  for (int stop = 0; stop <= kStops; ++stop) {
+    const double distance = double(stop) / kStops;
+    cairo_pattern_add_color_stop_rgba(light.get(), distance, color.red / 255.0, color.green / 255.0,
+                                      color.blue / 255.0,
+                                      color.alpha / 255.0 * GlowItem::strength(distance));
+  }
+  cairo_set_source(&cr, light.get());
+  cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
+  cairo_fill(&cr);
 }
 
 }  // namespace piblocks

@@ -154,6 +154,25 @@ void Painter::paint(cairo_t& cr, const DiscItem& item) {
               {pixel.x - reach_px, pixel.y - reach_px, double(side_px), double(side_px)});
 }
 
+/// Pixel by pixel: Cairo's gradients are not the same on every processor.
+void Painter::paint(cairo_t& cr, const GlowItem& item) {
+  if (!has_pixels(cr)) return paint_shape(cr, item);
+  const Rect& bounds = item.bounds;
+  Image light{static_cast<int>(bounds.width), static_cast<int>(bounds.height), {}};
+  const Color& color = item.color;
+  const std::uint32_t rgb =
+      std::uint32_t{color.red} << 16 | std::uint32_t{color.green} << 8 | color.blue;
+  for (int y = 0; y < light.height_px; ++y) {
+    for (int x = 0; x < light.width_px; ++x) {
+      const Point pixel{bounds.x + x + 0.5, bounds.y + y + 0.5};
+      const double distance = length(pixel - item.centre) / item.radius;
+      const double alpha = std::round(color.alpha * GlowItem::strength(distance));
+      light.words.push_back(static_cast<std::uint32_t>(alpha) << 24 | rgb);
+    }
+  }
+  copy_pixels(cr, *premultiplied(light), bounds);
+}
+
 void Painter::paint(cairo_t& cr, const ImageItem& item) {
   cairo_surface_t& pixels = kept_pixels(item.image);
   cairo_save(&cr);

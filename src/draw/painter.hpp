@@ -25,12 +25,17 @@ void set_color(cairo_t& cr, const Color& color);
 void paint_shape(cairo_t& cr, const RectangleItem& item);
 void paint_shape(cairo_t& cr, const PathItem& item);
 void paint_shape(cairo_t& cr, const DiscItem& item);
+/// For vector files.
+void paint_shape(cairo_t& cr, const GlowItem& item);
 
 /// Fills a rectangle with a surface whose upper left corner is there.
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rect& bounds);
 
 /// Whether pixels of the picture are those of the surface: not in vector files and scaled groups.
 bool has_pixels_of_picture(cairo_t& cr);
+
+/// Vector files have lines, circles and gradients of their own.
+bool has_pixels(cairo_t& cr);
 
 /// Whether a disc has few pixels: they are painted once for each place within a pixel, and kept.
 bool is_small(const DiscItem& disc);
@@ -92,6 +97,7 @@ class Painter {
   void paint_item(cairo_t& cr, const DrawItem& item, const PixelRect& area);
   void paint(cairo_t& cr, const TextItem& item);
   void paint(cairo_t& cr, const DiscItem& item);
+  void paint(cairo_t& cr, const GlowItem& item);
   void paint(cairo_t& cr, const ImageItem& item);
   void paint(cairo_t& cr, const PlateItem& item);
   void paint(cairo_t& cr, const GroupItem& item, const PixelRect& area);

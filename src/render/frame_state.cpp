@@ -214,6 +214,13 @@ FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds&
   }
   if (video_time) state.video_s = to_double(video_time->video_s);
   if (video_time && needs.hits) add_hits(state, log, *video_time);
+  if (video_time && needs.moments) {
+    state.moment = [&log, gaps = needs.gaps, speed, schedule = &video_time->schedule,
+                    now_s = video_time->video_s](double from_now_s) {
+      const Rational video_s = schedule->within(now_s + Rational(from_now_s));
+      return frame_state(log, schedule->at(video_s), {.gaps = gaps}, speed);
+    };
+  }
   return state;
 }
 

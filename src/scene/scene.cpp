@@ -167,8 +167,9 @@ void check_fits(const Scene& scene, SceneProblems& problems) {
   if (show.loupe && show.loupe->is_on) {
     problems.require(!is_plane, "show.loupe", "is for blocks on a line; leave it out");
     problems.require(is_plane || is_pair || show.loupe->window, "show.loupe",
-                     "'auto' is for two blocks beside one wall or fixed block, which have a turn; "
-                     "give a window with a collision, as 1.9:2.1:100");
+                     "'{}' is for two blocks beside one wall or fixed block, which have a turn; "
+                     "give a window with a collision, as 1.9:2.1:100",
+                     exact_text(*show.loupe));
   }
   for (const Panel panel : show.panels) {
     const bool is_for_all = panel == Panel::count || panel == Panel::speeds;

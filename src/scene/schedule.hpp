@@ -6,6 +6,7 @@
 #include <piblocks/scene.hpp>
 #include <piblocks/two_blocks.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -68,6 +69,11 @@ class Schedule {
   /// Simulation time per second of video where nothing slows it down; 0 if the picture never moves.
   Rational speed() const;
 
+  /// The nearest time at which there is a frame, or which is between frames.
+  Rational within(const Rational& video_s) const {
+    const Rational last_s = Rational(frame_count_ - 1) / frame_rate_;
+    return std::clamp<Rational>(video_s, 0, std::max<Rational>(last_s, 0));
+  }
   /// What is shown at `video_s` >= 0, and while a shutter is open from then on, `open_s` long. Past
   /// the end the last stretch goes on.
   FrameTime at(const Rational& video_s, const Rational& open_s = 0) const;

@@ -165,15 +165,17 @@ std::string exact_text(const Freeze& freeze) {
 
 Loupe parse_loupe(std::string_view text) {
   if (text == "auto") return {};
+  if (text == "stage") return {.is_stage = true};
   if (text == "off") return {.is_on = false};
-  const auto parts = split<3>(text, "auto, off, or FROM:TO:ZOOM, as turn-0.01:turn+0.01:100");
+  const auto parts =
+      split<3>(text, "auto, stage, off, or FROM:TO:ZOOM, as turn-0.01:turn+0.01:100");
   return {.window = LoupeWindow{parse_instant(parts[0]), parse_instant(parts[1]),
                                 parse_rational(parts[2])}};
 }
 
 std::string exact_text(const Loupe& loupe) {
   if (!loupe.is_on) return "off";
-  if (!loupe.window) return "auto";
+  if (!loupe.window) return loupe.is_stage ? "stage" : "auto";
   const auto& [from, to, zoom] = *loupe.window;
   return exact_text(from) + ':' + exact_text(to) + ':' + zoom.get_str();
 }

@@ -9,9 +9,11 @@
 #include "draw/overlays/loupe.hpp"
 #include "render/film.hpp"
 #include "render/flash_meter.hpp"
+#include "support/contains.hpp"
 
 namespace piblocks {
 namespace {
+using testing_support::contains;
 
 Settings lecture(int digits) {
   return {{"digits", std::to_string(digits)},
@@ -46,6 +48,26 @@ Arc arc_of(const PathItem& item) {
   return {{x, y}, std::hypot(a.x - x, a.y - y), item.stroke ? item.stroke->color : Color{}};
 }
 
+/// Of the newest hit: blue's edge, and red's unless blue has met the wall. They are inside their
+/// blocks, between the round corners, which have a radius of 0.004 of 720 rows.
+void expect_edges(const DrawList& frame, bool is_wall, bool is_flash) {
+  std::vector<RectangleItem> edges = items_of<RectangleItem>(frame.items, ItemId::hits);
+  if (!is_flash) return;
+  const Rect blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front().bounds;
+  const Rect red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+  const auto count_at = [&](double x, const Rect& block) {
+    return std::ranges::count_if(edges, [&](const RectangleItem& edge) {
+      return std::fabs(edge.bounds.x - x) < 1e-6 && std::fabs(edge.bounds.width - 3.6) < 1e-9 &&
+             std::fabs(edge.bounds.y - (block.y + 2.88)) < 1e-6 &&
+             std::fabs(edge.bounds.height - (block.height - 5.76)) < 1e-6;
+    });
+  };
+  EXPECT_EQ(count_at(is_wall ? blue.x : blue.right() - 3.6, blue), 1);
+  if (!is_wall) {
+    EXPECT_EQ(count_at(red.x, red), 1);
+  }
+}
+
 /// Every collision of the last 0.15 s has its arc, and nothing else has.
 TEST(HitMarks, AreWhereTheLogHasThem) {
   for (const int digits : {1, 2}) {
@@ -54,6 +76,7 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
     const PairLog& log = *frames.log().pair();
     const Schedule schedule = make_schedule(frames.scene(), log);
     int arcs_seen = 0;
+    int flashes_seen = 0;
     for (std::int64_t number = 0; number < schedule.frame_count().get_si(); ++number) {
       const FrameState state = frames.film_state(schedule, number);
       if (state.hits_per_s > kMaxHitsPerSecond) continue;
@@ -76,23 +99,27 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
         EXPECT_NEAR(arc.centre.y, blue.y, 1e-6);
         const double left = 1 - age / 0.15;
         EXPECT_NEAR(arc.radius, 0.06 * 720 * (1 - 0.7 * left * left), 1e-6);
-        EXPECT_NEAR(arc.color.alpha, 255 * left, 0.6);
-        EXPECT_EQ(arc.color.blue, is_wall ? 255 : 94);
+        EXPECT_NEAR(items[next - 1].stroke->width_px, 0.005 * 720, 1e-9);
+        // Two frames, of 60 a second, in the color of text.
+        const bool is_flash = age < 2.0 / 60 - 1e-9;
+        flashes_seen += is_flash ? 1 : 0;
+        EXPECT_NEAR(arc.color.alpha, is_flash ? 255 : 255 * left, 0.6);
+        EXPECT_EQ(arc.color.blue, is_flash ? 245 : is_wall ? 255 : 94);
+        expect_edges(frame, is_wall, is_flash);
         ++arcs_seen;
       }
       EXPECT_EQ(next, items.size()) << number;
     }
     EXPECT_GT(arcs_seen, 20);
+    EXPECT_GT(flashes_seen, 4);
   }
 }
 
-/// The glow's alphas, added up; it has no stroke.
+/// The glows' alphas, added up.
 int glow_of(const DrawList& frame) {
   int sum = 0;
   for (const PlateItem& plate : items_of<PlateItem>(frame.items, ItemId::hits)) {
-    for (const PathItem& item : items_of<PathItem>(plate.plate->items, ItemId::hits)) {
-      sum += item.fill && !item.stroke ? item.fill->alpha : 0;
-    }
+    for (const GlowItem& glow : items_of<GlowItem>(plate.plate->items)) sum += glow.color.alpha;
   }
   return sum;
 }
@@ -138,6 +165,55 @@ TEST(HitMarks, GlowWhereverTheyAreTooMany) {
   };
   for (std::uint32_t body = 0; body < 39; ++body)
     EXPECT_EQ(first_glow(body), first_glow(0)) << body;
+}
+
+/// The count is largest in the frame of a hit, by 6 %, and has its size again 0.12 s later.
+TEST(HitMarks, MakeTheCountLargerForAMoment) {
+  const Frames frames(lecture(2));
+  FrameState state = frames.state({frames.turn()});
+  const auto count_at = [&](double age_s) {
+    state.hits = {{1, kWall, {0, 0}, age_s, {}}};
+    return item_of<TextItem>(frames.of(state), ItemId::count);
+  };
+  const TextItem still = item_of<TextItem>(frames.at(frames.turn()), ItemId::count);
+  EXPECT_EQ(still.size_px, 0.15 * 720);
+  EXPECT_NEAR(count_at(0).size_px, 1.06 * still.size_px, 0.5);
+  double before = count_at(0).size_px;
+  for (double age_s = 0.005; age_s < 0.12; age_s += 0.005) {
+    const double now = count_at(age_s).size_px;
+    EXPECT_LE(now, before);
+    EXPECT_LE(before - now, 2);
+    before = now;
+  }
+  EXPECT_EQ(count_at(0.12).size_px, still.size_px);
+  EXPECT_EQ(count_at(0.14).origin, still.origin);
+  // Its middle stays.
+  const double half_em = Fonts().of(Face::digits).width_em(still.text) / 2;
+  EXPECT_NEAR(count_at(0).origin.x + half_em * count_at(0).size_px,
+              still.origin.x + half_em * still.size_px, 1e-9);
+  state.hits_per_s = 9;
+  state.hits.clear();
+  EXPECT_EQ(item_of<TextItem>(frames.of(state), ItemId::count), still);
+}
+
+TEST(HitMarks, GlowFadesFromItsCentreToNothing) {
+  const GlowItem glow{ItemId::hits, {10, 10, 40, 20}, {30, 30}, 20, {255, 0, 0, 200}};
+  const DrawList list{64, 40, Color{0, 0, 0}, {glow}};
+  const std::vector<std::uint32_t> pixels = painted(list);
+  const auto red_at = [&](std::size_t x, std::size_t y) {
+    return int(pixels[64 * y + x] >> 16 & 255);
+  };
+  // (1 - d^2)^2 of the color, d in radii.
+  EXPECT_NEAR(red_at(29, 29), 200, 2);
+  EXPECT_NEAR(red_at(39, 29), 200 * std::pow(1 - (9.5 * 9.5 + 0.5 * 0.5) / 400, 2), 1);
+  EXPECT_EQ(red_at(39, 29), red_at(20, 29));
+  EXPECT_LE(red_at(49, 29), 1);
+  EXPECT_EQ(red_at(29, 30), 0);  // cut off
+  for (std::size_t x = 31; x < 50; ++x) EXPECT_LE(red_at(x, 29), red_at(x - 1, 29));
+  const auto svg = draw_svg(list);
+  EXPECT_TRUE(contains(std::string(svg.begin(), svg.end()), "<radialGradient"));
+  const auto pdf = draw_pdf(list);
+  EXPECT_FALSE(contains(std::string(pdf.begin(), pdf.end()), "/Image"));
 }
 
 TEST(HitMarks, OfTheWallAndOfBlocksAreInTheCornersAboveTheLowerBody) {

@@ -72,7 +72,8 @@ void expect_mass_of(const DrawList& list, ItemId thing, std::size_t n, const Fon
   const bool is_on = text.x >= place.x && text.right() <= place.right() && text.y > place.y - 1;
   const bool is_above = mass->origin.y < place.y;
   const bool is_beside = text.right() <= place.x || text.x >= place.right();
-  EXPECT_TRUE(is_on || is_above || is_beside) << text.x << " on " << place.x;
+  const bool is_below = text.y > place.bottom();
+  EXPECT_TRUE(is_on || is_above || is_beside || is_below) << text.x << " on " << place.x;
 }
 
 TEST(Labels, AMassStaysWhileItsBlockIsInSight) {
@@ -134,6 +135,30 @@ TEST(Labels, MassesOfTheThemeAreThereUnlessOneHasNoPlace) {
 }
 
 /// Half a figure, at the frame's edge, is another number.
+/// A mass that does not fit on the lighter block is below the floor, and stays below its block.
+TEST(Labels, AMassIsBelowTheFloorWhereItsBlockIsSmall) {
+  Scene scene = scene_with(
+      3, {{"show.overlays", "masses"}, {"view.theme", "lecture"}, {"view.size", "1280x720"}});
+  scene.view.x = {0, 50};
+  const Pictures pictures(scene);
+  for (const int count : {10, 150, 300}) {
+    const DrawList list = pictures.after(count);
+    const Rect blue = items_of<RectangleItem>(list.items, ItemId::blue_block).front().bounds;
+    ASSERT_LT(blue.height, 0.042 * 720 * 1.2) << "else the test shows nothing";
+    const auto masses = items_of<TextItem>(list.items, ItemId::masses);
+    ASSERT_EQ(masses.size(), 2U);
+    const Box box = box_of(masses.back(), Fonts());
+    EXPECT_EQ(box.what, "1 kg");
+    EXPECT_GT(box.y, blue.bottom());
+    EXPECT_LE(box.bottom(), 720);
+    EXPECT_NEAR(box.centre().x, std::max(blue.centre().x, 0.06 * 720 + box.width / 2), 1);
+    EXPECT_LT(masses.front().origin.y, blue.y) << "red's is above red";
+  }
+  // Where a scale is, there is no room.
+  scene.show.overlays.push_back(Overlay::ruler);
+  EXPECT_THROW(Pictures{scene}, UsageError);
+}
+
 TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
   const Font font;
   const auto expect_whole = [&](const Range& view, const char* red_position, std::size_t count) {

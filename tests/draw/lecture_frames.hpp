@@ -48,7 +48,7 @@ struct SeenLoupe {
   double face = 0;   ///< of the wall
   Rect blue;         ///< the block in between, or a block that keeps its place
   Rect red;          ///< the outer block
-  std::string zoom;  ///< as it is written, without its power
+  std::string zoom;  ///< as it is written, without its power; empty if it is not said
   DrawList list;
 };
 
@@ -69,7 +69,8 @@ inline std::optional<SeenLoupe> loupe_in(const DrawList& frame) {
   if (!anchor.empty()) seen.blue = anchor.front().bounds;
   if (!blue.empty()) seen.blue = blue.front().bounds;
   seen.red = items_of<RectangleItem>(seen.list.items, ItemId::red_block).front().bounds;
-  seen.zoom = items_of<TextItem>(frame.items, ItemId::loupe).front().text;
+  const auto zooms = items_of<TextItem>(frame.items, ItemId::loupe);
+  if (!zooms.empty()) seen.zoom = zooms.front().text;
   return seen;
 }
 

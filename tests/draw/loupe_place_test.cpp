@@ -69,7 +69,7 @@ void expect_lines_clear_of_the_gap(const DrawList& frame, int side) {
     ++lines;
     const auto points = line.points.view();
     EXPECT_NEAR(points[0].x, red.x + (side > 0 ? 0.6 : 0.4) * red.width, 1);
-    const bool is_above = std::max(points[0].y, points[1].y) < red.y;
+    const bool is_above = std::max(points[0].y, points[1].y) <= red.y;
     EXPECT_TRUE(is_above || (side > 0 ? points[1].x > red.right() : points[1].x < red.x));
   }
   EXPECT_EQ(lines, loupe_in(frame) ? 2 : 0);
@@ -114,6 +114,46 @@ TEST(LoupePlace, CoversNothingInAnyShape) {
   }
   EXPECT_GT(tried, 250);
   EXPECT_GT(seen, 4 * tried);
+}
+
+/// Across most of the frame, with its right edge on the margin, above blocks that are a low strip.
+TEST(LoupePlace, OfAStageIsAboveLowBlocks) {
+  const Fonts fonts;
+  const Settings contents = {{"show.title", "The turn"}, {"show.overlays", "digits,masses"}};
+  for (const auto& [size, width] : {std::pair("1280x720", 0.7 * 1280),
+                                    {"1024x768", 0.7 * 1024},
+                                    {"1080x1080", 0.88 * 1080},
+                                    {"1080x1350", 0.88 * 1080},
+                                    {"1080x1920", 0.88 * 1080}}) {
+    for (const int side : {1, -1}) {
+      SCOPED_TRACE(std::string(size) + ", side " + std::to_string(side));
+      const Scene scene = scene_with(
+          lecture(5, size) + contents +
+          Settings{{"show.loupe", "stage"}, {"time.slow-motion", "turn-1e-4:turn+1e-4:1e4"}});
+      const Frames frames(side > 0 ? scene : mirrored(scene));
+      const DrawList frame = frames.at(frames.turn());
+      const auto seen = loupe_in(frame);
+      ASSERT_TRUE(seen);
+      const double margin = 0.06 * std::min(frame.width_px, frame.height_px);
+      EXPECT_NEAR(seen->bounds.width, width, 1.5);
+      const double away = side > 0 ? frame.width_px - seen->bounds.right() : seen->bounds.x;
+      EXPECT_NEAR(away, margin, 1.5);
+      EXPECT_GE(seen->bounds.y, 0.25 * frame.height_px);
+      const Rect red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+      EXPECT_LE(red.height, 0.2 * std::min(frame.width_px, frame.height_px));
+      EXPECT_LT(seen->bounds.bottom(), red.y);
+      EXPECT_LE(red.bottom(), frame.height_px - margin);
+      expect_apart(frame, fonts);
+      expect_lines_clear_of_the_gap(frame, side);
+    }
+  }
+}
+
+TEST(LoupePlace, OfAStageNeedsRoom) {
+  EXPECT_THROW(Frames(lecture(5) + Settings{{"show.loupe", "stage"}, {"show.panels", "velocity"}}),
+               UsageError);
+  // Equal masses do not come near the wall.
+  EXPECT_THROW(Frames(lecture(1) + Settings{{"show.loupe", "stage"}}), UsageError);
 }
 
 TEST(LoupePlace, OfOtherBlocksCoversNothing) {

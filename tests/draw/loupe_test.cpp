@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "draw/canvas.hpp"
@@ -108,6 +109,35 @@ TEST(Loupe, KeepsRedsFaceInside) {
       EXPECT_GT(seen_times, 20);
     }
   }
+}
+
+/// From one power of ten to the next in 0.4 s of the video; red never leaves the inset.
+TEST(Loupe, SaysWholePowersOfTenAlone) {
+  const Frames frames(lecture(4) + Settings{{"time.from", "turn-0.3"},
+                                            {"time.to", "turn+0.3"},
+                                            {"time.slow-motion", "turn-0.1:turn+0.1:20"}});
+  const Schedule schedule = make_schedule(frames.scene(), frames.log());
+  std::set<std::string> said;
+  double before = 0;
+  int changes = 0;
+  for (std::int64_t n = 0; n < schedule.frame_count().get_si(); ++n) {
+    const FrameState state = frames.film_state(schedule, n);
+    const auto seen = loupe_in(frames.of(state));
+    if (!seen) continue;
+    said.insert(seen->zoom);
+    EXPECT_LT(seen->red.x, seen->bounds.width);
+    const double zoom = (seen->red.x - seen->face - seen->blue.width) / state.gaps.y2;
+    // A power of ten in 24 frames is 20 % in the steepest, or the gap grows as much.
+    if (before > 0) {
+      EXPECT_LT(std::fabs(std::log10(zoom / before)), 1.5 / 24 + 0.03) << n;
+      changes += std::fabs(zoom / before - 1) > 0.01 ? 1 : 0;
+    }
+    before = zoom;
+  }
+  // The gap is small enough for a thousand times only for 0.02 s, and for the first power from 0.4
+  // s on: until then it fills the inset, which is not a whole power.
+  EXPECT_EQ(said, (std::set<std::string>{"", "×10", "×100"}));
+  EXPECT_GT(changes, 48) << "two eases of 24 frames";
 }
 
 TEST(Loupe, FadesWithTheGap) {

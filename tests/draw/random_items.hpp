@@ -53,12 +53,22 @@ inline TextItem any_line(Random& random, ItemId id, int width, int height) {
           any_color(random)};
 }
 
+/// Half of them with round corners.
 inline RectangleItem any_rectangle(Random& random, ItemId id, int width, int height) {
-  return {id,
-          {anywhere(random, width), anywhere(random, height), random.uniform(1, width),
-           random.uniform(1, height)},
-          any_fill(random),
-          any_stroke(random)};
+  RectangleItem item{id,
+                     {anywhere(random, width), anywhere(random, height), random.uniform(1, width),
+                      random.uniform(1, height)},
+                     any_fill(random),
+                     any_stroke(random)};
+  if (random.integer(0, 1) == 0) item.corner_px = random.uniform(0, 6);
+  return item;
+}
+
+inline GlowItem any_glow(Random& random, ItemId id, int width, int height) {
+  const double radius = random.uniform(1, 60);
+  const Point centre = any_point(random, width, height);
+  return {id, Rect{centre.x, centre.y, 0, 0}.grown(radius).whole_pixels(), centre, radius,
+          any_color(random)};
 }
 
 inline PathItem any_path(Random& random, ItemId id, int width, int height) {
@@ -108,7 +118,7 @@ inline ExposedBlock any_exposed_block(Random& random, int width, int height) {
                       random.uniform(1, height)},
                      any_color(random),
                      {any_color(random), random.uniform(0.5, 4), 0},
-                     {}};
+                     random.integer(0, 1) == 0 ? random.uniform(0, 5) : 0};
   for (std::int64_t i = random.integer(-2, 3); i > 0; --i) {
     const double down = random.uniform(0, block.bounds.height);
     block.bars.push_back({block.bounds.y + down, random.uniform(0, block.bounds.height - down)});
@@ -176,7 +186,7 @@ inline PlateItem any_plate(Random& random, ItemId id, int width, int height) {
 }
 
 inline DrawItem any_item(Random& random, ItemId id, int width, int height) {
-  switch (random.integer(0, 8)) {
+  switch (random.integer(0, 9)) {
     case 0:
       return any_line(random, id, width, height);
     case 1:
@@ -193,6 +203,8 @@ inline DrawItem any_item(Random& random, ItemId id, int width, int height) {
       return any_plate(random, id, width, height);
     case 7:
       return any_moving_shapes(random, id, width, height);
+    case 8:
+      return any_glow(random, id, width, height);
     default:
       return any_rectangle(random, id, width, height);
   }

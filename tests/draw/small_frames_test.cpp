@@ -80,6 +80,9 @@ class Checker {
     if (!(item.radius > 0)) problem += "a dot without a radius; ";
     check_inside({item.centre.x, item.centre.y, 0, 0}, "a dot");
   }
+  void check_item(const GlowItem& item) {
+    if (!(item.radius > 0)) problem += "a glow without a radius; ";
+  }
   void check_item(const ImageItem& item) {
     const Rect& r = item.bounds;
     if (!(r.width > 0 && r.height > 0)) problem += "a picture without size; ";

@@ -40,6 +40,39 @@ TEST(SplitScreen, CellsAreEqualApartAndInsideTheFrame) {
   EXPECT_THROW(SplitScreen(view_of_size(20, 16), 3), UsageError);
 }
 
+TEST(SplitScreen, RowsKeepTheMarginsOfTheFrame) {
+  const SplitScreen split(view_of_size(1280, 720), 3, Split::rows);
+  const PixelRect& first = split.cells().front();
+  const PixelRect& last = split.cells().back();
+  Scene scene;
+  scene.view = view_of_size(first.width_px, first.height_px);
+  scene.view.short_side_px = 720;
+  scene.view.theme = Theme::lecture;
+  scene.show.title = "High";
+  const Drawing drawing(scene);
+  const FramePlan plan = plan_frame(drawing.context, CounterRoom{.count_em = 2, .label_px = 90}, 0);
+  const double top = plan.lines.front().origin.y - 0.72 * plan.lines.front().size_px;
+  EXPECT_NEAR(first.y_px + top, 0.06 * 720, 1.5);
+  EXPECT_NEAR(last.y_px + plan.stage.bottom(), 0.94 * 720, 1.5);
+}
+
+/// A title that has no room beside the counter is above it.
+TEST(SplitScreen, ALongTitleIsAboveTheCounterOfItsRow) {
+  Scene scene;
+  scene.view = view_of_size(1080, 336);
+  scene.view.short_side_px = 1080;
+  scene.view.theme = Theme::lecture;
+  scene.show.title = "A hundred times as heavy";
+  const Drawing drawing(scene);
+  CounterRoom room{.count_em = 2, .label_px = 90};
+  const FramePlan plan = plan_frame(drawing.context, room, 0);
+  const double below = plan.lines.front().origin.y + 0.25 * plan.lines.front().size_px;
+  EXPECT_GE(plan.counter.baseline_px - 0.72 * plan.counter.size_px, below - 1);
+  EXPECT_LE(plan.counter.baseline_px, 336);
+  room.slow_motion_px = 300;  // its label is there
+  EXPECT_THROW(plan_frame(drawing.context, room, 0), UsageError);
+}
+
 /// In a row the counter is beside the stage. Its place is known there too: the loupe needs it.
 TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
   Scene scene;

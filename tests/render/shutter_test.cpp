@@ -76,6 +76,17 @@ TEST(Shutter, FramesOfAnySpeedAreMeansOfInstants) {
   }
 }
 
+/// Corners are a few pixels wide at this size, so that rows at the ends of blocks differ.
+TEST(Shutter, FramesOfRoundBlocksAreMeansOfInstants) {
+  Scene scene = scene_of(3, {1280, 720}, Rational(1, 2));
+  scene.view.theme = Theme::lecture;
+  scene.show.hits = false;
+  scene.show.loupe = Loupe{.is_on = false};
+  const DrawList list = Pictures(scene).at(0);
+  EXPECT_NEAR(item_of<RectangleItem>(list, ItemId::red_block).corner_px, 0.004 * 720, 1e-9);
+  expect_mean_of_instants(scene, {90, 150, 210}, 5);
+}
+
 /// Time that stands, runs slower and runs back within one exposure.
 TEST(Shutter, FramesAcrossStretchesAreMeansOfInstants) {
   Scene scene = scene_of(3, {640, 360}, 1);

@@ -82,6 +82,13 @@ void set(Scene& scene, const std::string& name) {
   key->set(scene, kOther.at(name));
 }
 
+TEST(SceneKeys, ALoupeReadsBackAsTheSame) {
+  for (const char* text : {"auto", "stage", "off", "turn-1/100:turn+1/100:100"}) {
+    EXPECT_EQ(exact_text(parse_loupe(text)), text);
+  }
+  EXPECT_TRUE(parse_loupe("stage").is_stage);
+}
+
 TEST(SceneKeys, EachIsTold) {
   ASSERT_EQ(kOther.size(), scene_keys().size());
   for (const SceneKey& key : scene_keys()) {

@@ -5,9 +5,11 @@
 #include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "core/smooth_step.hpp"
 #include "draw/number_text.hpp"
 #include "scene/counted_pi.hpp"
 #include "scene/schedule.hpp"
@@ -22,6 +24,9 @@ constexpr std::string_view kPiLabel = "π = ";
 constexpr std::size_t kMoreDigits = 4;
 /// Between label and count, in ems of the label.
 constexpr double kLabelGap_em = 0.5;
+/// A hit makes the count larger, as long as hits are few. It shrinks back in this time of video.
+constexpr double kPulse = 0.06;
+constexpr double kPulse_s = 0.12;
 /// Sums of the same advances in different order differ by less.
 constexpr double kNegligible_px = 0.01;
 
@@ -70,6 +75,7 @@ class Counter {
         base_(context.scene.show.base),
         last_(last_shown(context.scene, context.log)),
         is_endless_(is_endless(context.log)),
+        pulses_(context.shows_hits()),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
         count_widths_(context.fonts.of(Face::digits),
@@ -87,6 +93,7 @@ class Counter {
     const double count_em = count_widths_.width_em(text);
     const double size_px = std::min(place_.size_px, (place_.room_px + kNegligible_px) / count_em);
     const double left = place_.right_px - count_em * size_px;
+    const double growth_px = growth_of(shown, size_px, count_em);
     const bool is_beside = place_.label_baseline_px == place_.baseline_px;
     const double label_right = is_beside ? left - kLabelGap_em * sizes_.text : place_.right_px;
     if (place_.has_label) {
@@ -99,16 +106,26 @@ class Counter {
                    is_over ? palette_.done : palette_.muted,
                    face_});
     }
-    items.emplace_back(TextItem{ItemId::count,
-                                {left, place_.baseline_px},
-                                text,
-                                size_px,
-                                is_over ? palette_.accent : palette_.text,
-                                Face::digits});
+    // From its middle.
+    items.emplace_back(
+        TextItem{ItemId::count,
+                 {left - growth_px * count_em / 2, place_.baseline_px + growth_px * kHalfFigure_em},
+                 text,
+                 size_px + growth_px,
+                 is_over ? palette_.accent : palette_.text,
+                 Face::digits});
     if (place_.has_pi) add_pi(lit_length(text, pi_count_), items);
   }
 
  private:
+  /// By whole pixels, so that few sizes of glyphs are made. It leaves room beside the label.
+  double growth_of(const FrameState& shown, double size_px, double count_em) const {
+    if (!pulses_ || shown.hits.empty()) return 0;
+    const double left = 1 - std::min(1.0, shown.hits.back().age_s / kPulse_s);
+    const double most = std::min(kPulse * size_px, kLabelGap_em * sizes_.text / count_em);
+    return std::round(smooth_step(left) * most);
+  }
+
   /// @param lit  length of the count's beginning that is right
   void add_pi(std::size_t lit, std::vector<DrawItem>& items) const {
     const std::size_t length = length_with(digits_in(pi_count_.substr(0, lit)), pi_);
@@ -138,6 +155,7 @@ class Counter {
   int base_;
   std::optional<Integer> last_;  ///< of the run, if the film comes that far
   bool is_endless_;
+  bool pulses_;  ///< where hits are seen
   std::string pi_count_;
   std::string pi_;
   TextWidths count_widths_;
@@ -211,7 +229,7 @@ CounterRoom counter_room(const LayoutContext& context, const std::string& pi_cou
 
 Drawable counter(const LayoutContext& context, const CounterPlace& place,
                  const std::string& pi_count) {
-  return {Counter(context, place, pi_count)};
+  return {Counter(context, place, pi_count), {.hits = context.shows_hits()}};
 }
 
 }  // namespace piblocks

@@ -36,7 +36,7 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
     inset->place(context, *place);
     return inset;
   }
-  if (!gap->window) return nullptr;
+  if (!gap->window && !gap->is_stage) return nullptr;
   const View& view = context.scene.view;
   throw UsageError(
       fmt::format("show.loupe: there is no room for it in {}x{}; make the frame larger, or leave "
@@ -50,15 +50,14 @@ LoupeInset::LoupeInset(const DrawingContext& context, const LoupeGap& gap)
       palette_(context.palette),
       face_(context.font.face()),
       frames_per_s_(to_double(context.scene.view.frame_rate)),
-      line_px_(context.layout.line_px),
       background_(background_of(context.scene.view)),
       window_zoom_([&]() -> std::optional<double> {
         if (!gap.window) return std::nullopt;
         return to_double(context.scene.show.loupe->window->zoom);
       }()),
       zoom_([&] {
-        double most =
-            std::floor(rounded::log10(style::kLoupeWidth * sizes_.short_side / gap.least_px));
+        double most = std::floor(rounded::log10(
+            loupe_width_px(context.scene.view, sizes_, gap.is_stage) / gap.least_px));
         if (window_zoom_) most = std::max(most, rounded::log10(*window_zoom_) + 1);
         return static_cast<long>(std::clamp<double>(most, 1, kMostPower));
       }()),
@@ -68,6 +67,12 @@ LoupeInset::LoupeInset(const DrawingContext& context, const LoupeGap& gap)
       hit_color_(color_of_hit(gap.meeting_pair(), context.scene.system, context.colors)) {
   if (gap.between) between_ = context.colors[*gap.between];
   if (gap.anchor < context.colors.size()) anchor_ = context.colors[gap.anchor];
+  for (long exponent = 0; exponent <= zoom_.most_exponent(); ++exponent) {
+    if (!window_zoom_ || zoom_.power(exponent) < *window_zoom_) {
+      zooms_.push_back(zoom_.power(exponent));
+    }
+  }
+  if (window_zoom_) zooms_.push_back(*window_zoom_);
   const FormulaSetter setter = context.setter();
   const long most = zoom_.most_exponent() + 1;
   double widest_em = widths_.width_em("×8,888");
@@ -90,14 +95,16 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   const double short_side = sizes_.short_side;
   const Layout& layout = context.layout;
   bounds_ = found.bounds;
+  // All widths in a wider inset are so much larger.
+  const double wider = bounds_.width / (style::kLoupeWidth * short_side);
   const double anchor = anchor_ ? kBlockWidth : loupe_style::kInside + style::kWallWidth;
   face_px_ = std::round(sizes_.grid_line + anchor * short_side);
-  between_px_ = gap_.between ? std::round(kBlockWidth * short_side) : 0;
-  room_px_ = bounds_.width - face_px_ - between_px_ - kLeastOuter * short_side;
+  between_px_ = gap_.between ? std::round(wider * kBlockWidth * short_side) : 0;
+  room_px_ = bounds_.width - face_px_ - between_px_ - wider * kLeastOuter * short_side;
   floor_px_ = std::round(bounds_.height - loupe_style::kBelowFloor * short_side);
   const double room =
       floor_px_ - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
-  const double taller = std::round(std::min(kBlocksHeight * short_side, room));
+  const double taller = std::round(std::min(wider * kBlocksHeight * short_side, room));
   const std::size_t inner_block = gap_.between.value_or(anchor_ ? gap_.anchor : gap_.outer);
   const double ratio = std::clamp(layout.height_px(gap_.outer) / layout.height_px(inner_block),
                                   1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
@@ -106,7 +113,7 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
   // What stands still beside two blocks is as high as both.
   anchor_height_px_ =
       gap_.between ? std::max(inner_height_px_, outer_height_px_) : inner_height_px_;
-  if (context.scene.show.hits && context.scene.view.theme != Theme::article) {
+  if (context.shows_hits()) {
     marks_.emplace(context, HUGE_VAL, HUGE_VAL);
   }
 
@@ -118,13 +125,13 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
     zoom_end_ = {inner - gap_.side * loupe_style::kOutside * short_side,
                  bounds_.y + bounds_.height / 2 + kHalfFigure_em * sizes_.mass};
   } else {
-    const double row = slow_text_ ? loupe_style::kRow_em * sizes_.text : 0;
+    const double row = slow_text_ && !gap_.is_stage ? loupe_style::kRow_em * sizes_.text : 0;
     zoom_end_ = {bounds_.right() - loupe_style::kInside * short_side, bounds_.y + baseline + row};
   }
   const double bottom = bounds_.bottom();
   if (bottom < layout.top_px()) {
     corners_ = {Point{bounds_.x, bottom}, Point{bounds_.right(), bottom}};
-    lines_y_ = bottom + loupe_style::kOutside * short_side;  // above all that is above the blocks
+    lines_y_ = found.lines_px;
   } else {
     corners_ = {Point{inner, bounds_.y}, Point{inner, bottom}};
     lines_y_ = layout.floor_px - layout.height_px(inner_block) / 2;
@@ -150,7 +157,7 @@ void LoupeInset::place_scenery(const DrawingContext& context) {
     Point from = mirrored(Point{face_px_, top});
     Point to = mirrored(Point{face_px_, floor_px_ + line});
     if (gap_.side < 0) std::swap(from, to);
-    items = hatched_wall(from, to, context);
+    items = hatched_face(from, to, context, kWallHatch);
   }
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
                                    mirrored(Rect{floor_left, floor_px_, bounds_.width, line}),

@@ -28,8 +28,6 @@ class LoupeInset {
 
   /// 0 where it is not seen, 1 where it is seen in full: by the gap, and by the window.
   double opacity(const FrameState& shown) const;
-  /// By how much gaps are enlarged. @param gap  y2
-  double zoom(double gap) const;
   FrameNeeds needs() const noexcept { return gap_.needs(); }
   /// Whether it says how much slower time runs.
   bool shows_slow_motion() const noexcept { return bool(slow_text_); }
@@ -46,6 +44,11 @@ class LoupeInset {
   static constexpr std::size_t kCut = 100;
   static constexpr std::size_t kSweep = 100;
 
+  /// How many times the gap of a state could be enlarged.
+  double room_of(const FrameState& state) const;
+  /// The place of the zoom among zooms_, or between two of them.
+  double level(const FrameState& shown) const;
+  double zoom_at(double level, const FrameState& shown) const;
   /// All that does not depend on the place.
   LoupeInset(const DrawingContext& context, const LoupeGap& gap);
   LoupeTexts texts() const { return {widest_zoom_px_, shows_slow_motion()}; }
@@ -55,12 +58,20 @@ class LoupeInset {
   Rect mirrored(const Rect& r) const;
   Point mirrored(const Point& p) const;
 
-  DrawList picture(const FrameState& shown, double zoomed) const;
+  DrawList picture(const FrameState& shown, double px_per_unit) const;
   void add_blocks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
   void add_marks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
-  void add_between(double x_px, double seen, std::vector<DrawItem>& items) const;
+  /// Where blocks are in the inset.
+  struct SeenBlocks {
+    std::optional<Rect> anchor;
+    std::optional<Rect> between;
+    Rect outer;
+  };
+  SeenBlocks blocks_of(const FrameState& shown, double px_per_unit) const;
+  void add_between(const Rect& block, double seen, std::vector<DrawItem>& items) const;
   /// Where surfaces touch. @param left_px, right_px  heights, as seen from the anchor
   Contact contact_at(double x_px, double left_px, double right_px, const Color& color) const;
+  void add_tear(const Rect& block, const Color& color, std::vector<DrawItem>& items) const;
   void add_zoom(double zoomed, const Color& color, std::vector<DrawItem>& items) const;
 
   LoupeGap gap_;
@@ -68,10 +79,10 @@ class LoupeInset {
   Palette palette_;
   Face face_;
   double frames_per_s_;
-  double line_px_;  ///< of the blocks' outlines
   std::optional<Color> background_;
   std::optional<double> window_zoom_;
   Zoom zoom_;
+  std::vector<double> zooms_;  ///< rising: 1, 10, 100, … below the window's zoom, and that
   TextWidths widths_;
   std::vector<Formula> powers_;  ///< of ten, from the least one that is written as a power
   double widest_zoom_px_ = 0;

@@ -102,8 +102,16 @@ std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& 
                .between = blocks.blue_id,
                .side = blocks.side,
                .least_px = least_gap(log) * context.layout.scale,
-               .window = span_of_window(loupe, log)};
-  if (!gap.window) return gap.least_px < most_px ? std::optional(gap) : std::nullopt;
+               .window = span_of_window(loupe, log),
+               .is_stage = loupe.is_stage};
+  if (!gap.window && gap.least_px < most_px) return gap;
+  if (!gap.window && !gap.is_stage) return std::nullopt;
+  if (!gap.window) {
+    throw UsageError(fmt::format(
+        "{}: the gap is never below {:.4g} pixels, and the loupe is seen below {:.4g}; use more "
+        "digits, or leave the loupe out",
+        kLoupeKey, gap.least_px, most_px));
+  }
   const Span shown = shown_part(context, *gap.window);
   const double shown_px = least_gap(log, shown) * context.layout.scale;
   if (shown_px < most_px) return gap;
@@ -193,6 +201,8 @@ std::optional<LoupeGap> loupe_gap(const DrawingContext& context) {
   if (!loupe) return std::nullopt;
   return context.pair() != nullptr ? gap_of_pair(context, *loupe) : gap_of_bodies(context, *loupe);
 }
+
+bool has_stage_loupe(const Show& show) { return show.loupe && show.loupe->is_stage; }
 
 bool may_show_loupe(const LayoutContext& context, const AxisPlace& axis) {
   if (!loupe_of(context)) return false;

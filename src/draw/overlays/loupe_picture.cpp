@@ -11,9 +11,11 @@
 namespace piblocks {
 namespace {
 
-// Of the break in the block between, in fractions of the frame's shorter side.
-constexpr double kCutWidth = 0.016;
-constexpr double kCutSlant = 0.02;
+// Of the tear in the block between, in fractions of the frame's shorter side.
+constexpr double kTearWidth = 0.012;
+constexpr double kTearTooth = 0.014;  ///< height and depth
+/// Where it is, in parts of the block's width.
+constexpr double kTearAt = 0.25;
 /// Where the lines to the inset begin, in parts of the outer block's width from the gap.
 constexpr double kLinesInOuter = 0.6;
 /// The share of its window in which the loupe fades in, and out.
@@ -38,9 +40,28 @@ double LoupeInset::opacity(const FrameState& shown) const {
   return std::clamp(opacity, 0.0, 1.0);
 }
 
-double LoupeInset::zoom(double gap) const {
-  const double room = room_px_ / (gap * stage_.scale);
-  return window_zoom_ ? std::max(1.0, std::min(*window_zoom_, room)) : zoom_.factor_for(room);
+double LoupeInset::room_of(const FrameState& state) const {
+  return room_px_ / (gap_.gaps_in(state, stage_).y2 * stage_.scale);
+}
+
+double LoupeInset::level(const FrameState& shown) const {
+  const auto level_of = [&](const FrameState& state) {
+    const auto above = std::ranges::upper_bound(zooms_, room_of(state));
+    return static_cast<int>(std::max<std::ptrdiff_t>(1, above - zooms_.begin())) - 1;
+  };
+  if (!shown.moment) return level_of(shown);
+  return eased_level([&](double from_now_s) {
+    return level_of(from_now_s == 0 ? shown : shown.moment(from_now_s));
+  });
+}
+
+/// Below the first level the gap fills the inset, which shows more than no zoom would.
+double LoupeInset::zoom_at(double level, const FrameState& shown) const {
+  if (level < 1) return std::clamp(room_of(shown), 1.0, zooms_[1]);
+  const auto below = static_cast<std::size_t>(level);
+  if (double(below) == level) return zooms_[below];
+  const double ratio = zooms_[below + 1] / zooms_[below];
+  return zooms_[below] * straight_exp2((level - double(below)) * straight_log2(ratio));
 }
 
 /// They begin behind the outer block, or above it: between the blocks they would be in the way.
@@ -62,14 +83,18 @@ void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items
 void LoupeInset::operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
-  const double zoomed = zoom(gap_.gaps_in(shown, stage_).y2);
-  items.emplace_back(GroupItem{ItemId::loupe, bounds_,
-                               std::make_shared<const DrawList>(picture(shown, zoomed)), seen});
-  add_zoom(zoomed, faded(palette_.text, seen), items);
+  const double now = level(shown);
+  const double zoomed = zoom_at(now, shown);
+  items.emplace_back(
+      GroupItem{ItemId::loupe, bounds_,
+                std::make_shared<const DrawList>(picture(shown, stage_.scale * zoomed)), seen});
+  // It is said as a whole: between two of them as the nearer one, and not below the first.
+  if (zoomed < zooms_[1]) return;
+  const auto nearest = static_cast<std::size_t>(std::max(1L, std::lround(now)));
+  add_zoom(zooms_[nearest], faded(palette_.text, seen), items);
 }
 
-DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
-  const double px_per_unit = stage_.scale * zoomed;
+DrawList LoupeInset::picture(const FrameState& shown, double px_per_unit) const {
   DrawList list{static_cast<int>(bounds_.width), static_cast<int>(bounds_.height), background_, {}};
   list.items.emplace_back(scenery_);
   add_blocks(shown, px_per_unit, list.items);
@@ -105,12 +130,16 @@ void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
   };
   const Contact at_anchor =
       contact_at(face_px_, anchor_ ? anchor_height_px_ : HUGE_VAL, inner_height_px_, between_.line);
+  const SeenBlocks blocks = blocks_of(shown, px_per_unit);
   for (std::size_t n = 0; n < shown.hits.size(); ++n) {
     const Hit& hit = shown.hits[n];
     const bool is_outer = hit.pair == gap_.meeting_pair();
     if (!gap_.between && !is_outer) continue;
-    marks_->add_arc(nth(ItemId::hits, n), hit.age_s, is_outer ? at_outer(hit.gaps.y2) : at_anchor,
-                    items);
+    marks_->add_arc(n, hit.age_s, is_outer ? at_outer(hit.gaps.y2) : at_anchor, items);
+    std::optional<Rect> left = gap_.between && is_outer ? blocks.between : blocks.anchor;
+    std::optional<Rect> right = is_outer ? blocks.outer : blocks.between;
+    if (gap_.side < 0) std::swap(left, right);
+    marks_->add_edges(n, hit.age_s, left, right, items);
   }
   const double gap = gap_.gaps_in(shown, stage_).y2;
   if (gap_.between) {
@@ -124,50 +153,71 @@ void LoupeInset::add_marks(const FrameState& shown, double px_per_unit,
 
 void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
                             std::vector<DrawItem>& items) const {
-  const Gaps gaps = gap_.gaps_in(shown, stage_);
-  const auto add = [&](ItemId id, double left, double right, double height,
-                       const BlockColors& colors) {
-    const Rect block{left, floor_px_ - height, std::max(0.0, right - left), height};
-    add_rectangles(id, block_at(mirrored(block), colors, line_px_), items);
+  const auto add = [&](ItemId id, const Rect& block, const BlockColors& colors) {
+    add_rectangles(id, block_at(block, colors, stage_), items);
   };
-  // The far sides are outside.
-  const double beyond = 2 * line_px_;
-  const double outer_x = face_px_ + gaps.y2 * px_per_unit + between_px_;
-  if (anchor_) add(nth(ItemId::wall, kAnchor), -beyond, face_px_, anchor_height_px_, *anchor_);
-  add(ItemId::red_block, outer_x, std::max(outer_x, bounds_.width) + beyond, outer_height_px_,
-      outer_);
-  if (!gap_.between) return;
+  const SeenBlocks blocks = blocks_of(shown, px_per_unit);
+  if (blocks.anchor) add(nth(ItemId::wall, kAnchor), *blocks.anchor, *anchor_);
+  add(ItemId::red_block, blocks.outer, outer_);
+  if (!blocks.between) return;
   const double hits = shown.hits_per_s / frames_per_s_;
   const double swept =
       std::clamp((hits - kSweepHits / 4) / (kSweepHits - kSweepHits / 4), 0.0, 1.0);
   if (swept > 0) {
+    const double outer_x = mirrored(blocks.outer).x;
     items.emplace_back(RectangleItem{nth(ItemId::red_block, kSweep),
                                      mirrored(Rect{face_px_, floor_px_ - inner_height_px_,
                                                    outer_x - face_px_, inner_height_px_}),
                                      faded(between_.fill, swept * kSweepAlpha), std::nullopt});
   }
-  add_between(face_px_ + gaps.y1 * px_per_unit, 1 - swept * (1 - kFastBlock), items);
+  add_between(*blocks.between, 1 - swept * (1 - kFastBlock), items);
 }
 
-void LoupeInset::add_between(double x_px, double seen, std::vector<DrawItem>& items) const {
-  const Rect block =
-      mirrored(Rect{x_px, floor_px_ - inner_height_px_, between_px_, inner_height_px_});
+LoupeInset::SeenBlocks LoupeInset::blocks_of(const FrameState& shown, double px_per_unit) const {
+  const Gaps gaps = gap_.gaps_in(shown, stage_);
+  const auto block = [&](double left, double width, double height) {
+    return mirrored(Rect{left, floor_px_ - height, width, height});
+  };
+  // The far sides are outside.
+  const double beyond = 2 * (stage_.line_px + stage_.corner_px);
+  const double outer_x = face_px_ + gaps.y2 * px_per_unit + between_px_;
+  SeenBlocks blocks;
+  if (anchor_) blocks.anchor = block(-beyond, face_px_ + beyond, anchor_height_px_);
+  if (gap_.between) {
+    blocks.between = block(face_px_ + gaps.y1 * px_per_unit, between_px_, inner_height_px_);
+  }
+  blocks.outer = block(outer_x, std::max(0.0, bounds_.width - outer_x) + beyond, outer_height_px_);
+  return blocks;
+}
+
+void LoupeInset::add_between(const Rect& block, double seen, std::vector<DrawItem>& items) const {
   BlockColors colors = between_;
   colors.fill = faded(colors.fill, seen);
   colors.edge = faded(colors.edge, seen);
-  add_rectangles(ItemId::blue_block, block_at(block, colors, line_px_), items);
-  const double half = kCutWidth / 2 * sizes_.short_side;
-  const double slant = kCutSlant / 2 * sizes_.short_side;
-  const double middle = block.x + block.width / 2;
-  items.emplace_back(PathItem{nth(ItemId::blue_block, kCut),
-                              std::vector<Point>{{middle - half + slant, block.y},
-                                                 {middle + half + slant, block.y},
-                                                 {middle + half - slant, floor_px_},
-                                                 {middle - half - slant, floor_px_}},
-                              true, faded(palette_.background, seen), std::nullopt});
+  add_rectangles(ItemId::blue_block, block_at(block, colors, stage_), items);
+  add_tear(block, faded(palette_.background, seen), items);
 }
 
-/// "×100" and "×10⁷" where the zoom stays; two digits, as "×3.5·10⁷", where it does not.
+/// Near the anchor, for the enlarged block would reach far beyond it.
+void LoupeInset::add_tear(const Rect& block, const Color& color,
+                          std::vector<DrawItem>& items) const {
+  const double tooth = kTearTooth * sizes_.short_side;
+  const double along = kTearAt * block.width;
+  const double left = gap_.side > 0 ? block.x + along : block.right() - along;
+  const int teeth = 2 * std::max(1, static_cast<int>(std::round(block.height / (2 * tooth)))) + 1;
+  std::vector<Point> edge;
+  for (int i = 0; i <= teeth; ++i) {
+    const double aside = (i % 2 == 0 ? -tooth : tooth) / 2;
+    edge.push_back({left + aside, block.y + block.height * i / teeth});
+  }
+  std::vector<Point> outline = edge;
+  const Point across{kTearWidth * sizes_.short_side, 0};
+  for (auto at = edge.rbegin(); at != edge.rend(); ++at) outline.push_back(*at + across);
+  items.emplace_back(
+      PathItem{nth(ItemId::blue_block, kCut), std::move(outline), true, color, std::nullopt});
+}
+
+/// "×100" and "×10⁷"; of a window's zoom two digits, as "×3.5·10⁷".
 void LoupeInset::add_zoom(double zoomed, const Color& color, std::vector<DrawItem>& items) const {
   zoomed = std::min(zoomed, zoom_.power(zoom_.most_exponent()));
   long exponent = zoom_.exponent_of(zoomed);

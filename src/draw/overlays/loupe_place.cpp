@@ -10,6 +10,11 @@ namespace {
 
 // In fractions of the frame's shorter side.
 constexpr double kHeight = 0.27;  ///< of the inset, at most
+// Of one that is as wide as most of the frame; its width in parts of a wide frame's.
+constexpr double kStageWidth = 0.7;
+constexpr double kStageTop = 0.25;
+constexpr double kStageHeight = 0.5;
+constexpr double kStageLines = 0.05;
 constexpr double kLeastBlocks = 0.075;
 /// Between blocks and zoom, for the lines from the one to the other.
 constexpr double kLinesLength = 0.16;
@@ -30,6 +35,10 @@ class LoupePlacer {
     // Below the least size of type nothing could be read.
     if (style::kLeastType * short_side() < style::kLeastText_px) return std::nullopt;
     if (!gap_.between) return above_meeting();
+    if (gap_.is_stage) {
+      const double lines = kStageLines * short_side();
+      return at(right() - width(), stage_top() - lines, false);
+    }
     const double farthest = right() - width();
     const double floor = context_.layout.floor_px - loupe_style::kOutside * short_side();
     const double beside = blocks_right() + texts_.zoom_px + loupe_style::kOutside * short_side();
@@ -63,7 +72,9 @@ class LoupePlacer {
 
   double short_side() const { return context_.sizes.short_side; }
   double row() const { return loupe_style::kRow_em * context_.sizes.text; }
-  double width() const { return std::round(style::kLoupeWidth * short_side()); }
+  double width() const {
+    return loupe_width_px(context_.scene.view, context_.sizes, gap_.is_stage);
+  }
   double right() const {
     const View& view = context_.scene.view;
     // The counter may be beside the stage.
@@ -91,6 +102,7 @@ class LoupePlacer {
     const bool is_article = context_.scene.view.theme == Theme::article;
     const CountLine& line = context_.layout.count_line;
     double top = std::max(plan_.stage.y, context_.sizes.margin);
+    if (gap_.is_stage) top = std::max(top, kStageTop * context_.scene.view.height_px);
     if (is_article) {
       top = std::max(top, line.label.y + kBelowLine_em * line.text_px);
     } else if (columns.right() + loupe_style::kOutside * short_side() >
@@ -111,6 +123,7 @@ class LoupePlacer {
   }
 
   double rows_px(bool is_zoom_beside) const {
+    if (gap_.is_stage) return row();  // both are beside each other
     return row() * ((texts_.has_slow_motion ? 1 : 0) + (is_zoom_beside ? 0 : 1));
   }
 
@@ -122,10 +135,12 @@ class LoupePlacer {
     const double lower = std::floor(bottom);
     const double x = gap_.side > 0 ? left : context_.scene.view.width_px - left - width();
     Rect bounds{std::floor(x), 0, width(), 0};
-    bounds.height = std::floor(std::min(kHeight * short_side(), lower - top(bounds)));
+    const double most = (gap_.is_stage ? kStageHeight : kHeight) * short_side();
+    bounds.height = std::floor(std::min(most, lower - top(bounds)));
     bounds.y = lower - bounds.height;
     if (bounds.height < least || left < context_.sizes.margin) return std::nullopt;
-    return LoupePlace{bounds, rows, is_zoom_beside};
+    const double lines = stage_top() + loupe_style::kOutside * short_side();
+    return LoupePlace{bounds, rows, is_zoom_beside, lines};
   }
 
   const DrawingContext& context_;
@@ -135,6 +150,12 @@ class LoupePlacer {
 };
 
 }  // namespace
+
+double loupe_width_px(const View& view, const Sizes& sizes, bool is_stage) {
+  if (!is_stage) return std::round(style::kLoupeWidth * sizes.short_side);
+  if (view.width_px <= view.height_px) return std::floor(view.width_px - 2 * sizes.margin);
+  return std::round(kStageWidth * view.width_px);
+}
 
 std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
                                            const LoupeGap& gap, const LoupeTexts& texts) {

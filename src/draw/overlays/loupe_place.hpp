@@ -13,6 +13,7 @@ struct LoupePlace {
   Rect bounds;         ///< in whole pixels of the frame
   double rows_px = 0;  ///< height of its rows of text
   bool is_zoom_beside = true;
+  double lines_px = 0;  ///< where lines to an inset above the blocks begin
 };
 
 /// What the inset has to have room for.
@@ -20,6 +21,9 @@ struct LoupeTexts {
   double zoom_px = 0;  ///< width of the longest zoom
   bool has_slow_motion = false;
 };
+
+/// Width of the inset, in pixels.
+double loupe_width_px(const View& view, const Sizes& sizes, bool is_stage);
 
 /// Room for the inset beside two blocks, on the side that they leave to; or above all blocks.
 /// Nothing if there is none.

@@ -22,9 +22,11 @@ constexpr double kBelowTick = 0.01;
 
 }  // namespace
 
-double room_below_px(const Scene& scene) {
-  if (!scene.show.has(Overlay::ruler)) return 0;
-  const Sizes sizes(scene.view);
+double room_below_px(const LayoutContext& context, const Layout& layout) {
+  const Sizes& sizes = context.sizes;
+  if (!context.scene.show.has(Overlay::ruler)) {
+    return labelled_below(context, layout).empty() ? 0 : label_room_below_px(sizes);
+  }
   const double figures = (kBelowBlocks + kTickLength + kBelowTick) * sizes.short_side;
   return std::max(kRulerRoom * sizes.short_side, figures + 2 * kHalfFigure_em * sizes.text);
 }

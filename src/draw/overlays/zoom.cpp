@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/smooth_step.hpp"
 #include "draw/number_text.hpp"
@@ -17,6 +18,67 @@ double straight_log2(double x) {
 double straight_exp2(double y) {
   const double whole = std::floor(y);
   return std::ldexp(1 + (y - whole), static_cast<int>(whole));
+}
+
+namespace {
+
+/// From a moment on, up to the next step.
+struct Level {
+  double from_s;
+  int level;
+};
+
+/// Adds the steps between two moments, by halving. @param last  the level at the second one
+void add_steps(const std::function<int(double)>& level_at, double from_s, double to_s, int last,
+               std::vector<Level>& levels) {
+  constexpr double kStep_s = kZoomEase_s / (1 << 14);
+  if (levels.back().level == last) return;
+  if (to_s - from_s <= kStep_s) {
+    levels.push_back({to_s, last});
+    return;
+  }
+  const double middle_s = (from_s + to_s) / 2;
+  add_steps(level_at, from_s, middle_s, level_at(middle_s), levels);
+  add_steps(level_at, middle_s, to_s, last, levels);
+}
+
+/// The least level in the time of an ease from a moment on.
+int least_from(const std::vector<Level>& levels, double from_s) {
+  int least = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const bool is_over = i + 1 < levels.size() && levels[i + 1].from_s <= from_s;
+    if (!is_over && levels[i].from_s <= from_s + kZoomEase_s) {
+      least = std::min(least, levels[i].level);
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+/// The mean of least_from() over the time of an ease until now, weighted so that one step follows
+/// smooth_step().
+double eased_level(const std::function<int(double)>& level_at) {
+  const int now = level_at(0);
+  std::vector<Level> levels{{-kZoomEase_s, level_at(-kZoomEase_s)}};
+  add_steps(level_at, -kZoomEase_s, 0, now, levels);
+  add_steps(level_at, 0, kZoomEase_s, level_at(kZoomEase_s), levels);
+  if (levels.size() == 1) return now;
+  // Between these the least level stays.
+  std::vector<double> moments{-kZoomEase_s, 0};
+  for (const Level& level : levels) {
+    for (const double at_s : {level.from_s, level.from_s - kZoomEase_s}) {
+      if (-kZoomEase_s < at_s && at_s < 0) moments.push_back(at_s);
+    }
+  }
+  std::ranges::sort(moments);
+  double mean = 0;
+  for (std::size_t i = 1; i < moments.size(); ++i) {
+    const double share =
+        smooth_step(-moments[i - 1] / kZoomEase_s) - smooth_step(-moments[i] / kZoomEase_s);
+    mean += share * least_from(levels, (moments[i - 1] + moments[i]) / 2);
+  }
+  return mean;
 }
 
 Zoom::Zoom(long most_exponent, double plateau) : plateau_(plateau) {

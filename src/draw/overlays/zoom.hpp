@@ -1,7 +1,8 @@
-// By how much the loupe enlarges a gap.
-// In: how many times as large the gap may become. Out: a power of ten, or a step between two.
+// By how much something is enlarged that becomes smaller and smaller.
+// In: how many times as large it may become. Out: a power of ten, or a step between two.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 namespace piblocks {
@@ -11,6 +12,16 @@ namespace piblocks {
 double straight_log2(double x);
 /// Its inverse.
 double straight_exp2(double y);
+
+/// How long a zoom takes from one level to the next, in seconds of video.
+inline constexpr double kZoomEase_s = 0.4;
+
+/// A level that changes in steps, with steps that take kZoomEase_s. It never exceeds the level of
+/// the moment: it begins to rise when that has risen for good, and to fall before that falls. What
+/// lasts shorter is left out. A function of the moment alone.
+/// @param level_at  the level so many seconds of video from now, at most kZoomEase_s; between steps
+///                  it is asked for a few times only
+double eased_level(const std::function<int(double from_now_s)>& level_at);
 
 /// As the room for the gap grows, the zoom stays at each power of ten for a part of the way to the
 /// next, and then rises to the next. It is continuous and never falls.

@@ -166,7 +166,7 @@ Layout lay_out_article(const LayoutContext& context, const Integer& longest_coun
   Layout layout = article_layout(context, line, area, extra);
   for (int pass = 0; pass < kPasses; ++pass) {
     const double above = room_above_px(context, layout) - layout.above_px;
-    const double below = room_below_px(context.scene) - layout.below_px;
+    const double below = room_below_px(context, layout) - layout.below_px;
     extra.above += std::max(0.0, above);
     extra.below += std::max(0.0, below);
     if (std::max(above, below) <= 0 || extra.above + extra.below > kMostOfArea * area.height) break;

@@ -19,22 +19,20 @@ constexpr double kRing = 0.4;
 /// Directions in which an arc is drawn: without the first and the last, it keeps clear of the
 /// bodies.
 constexpr std::size_t kDirections = 13;
-/// Width of an arc's line, in widths of the wall's line.
-constexpr double kMarkLine = 1.2;
-/// Of concentric discs that make a glow: their number, the greatest opacity of each, and the radius
-/// of the largest in parts of an arc's final radius.
-constexpr int kGlowDiscs = 7;
-constexpr double kGlowAlpha = 0.24;
-constexpr double kGlowReach = 0.8;
+/// An arc flashes in so many frames.
+constexpr double kFlash_frames = 2;
+constexpr double kNegligible_frames = 1e-6;
+/// Ids of a hit: of its arc, and of an edge on either side.
+constexpr std::size_t kIdsOfHit = 3;
+/// The greatest opacity of a glow, and its radius in parts of an arc's final radius.
+constexpr double kGlowAlpha = 0.85;
+constexpr double kGlowReach = 1;
 /// The strength of a glow goes from the least one at kMaxHitsPerSecond towards 1. It is half-way
 /// when the rate has doubled so many times.
-constexpr double kLeastGlow = 0.4;
+constexpr double kLeastGlow = 0.55;
 constexpr double kHalfGlow = 6;
-/// Glows have at most so many colours. Where there are more, some are in the colour of text.
-constexpr std::size_t kMostColors = 16;
-/// Kinds of free corners.
-constexpr std::size_t kCorners = 3;
-/// Strengths that are told apart, from kLeastGlow to 1: one for each of its opacities.
+/// Strengths that are told apart, from kLeastGlow to 1. While the rate hardly changes, a glow keeps
+/// its pixels.
 constexpr int kGlows = 38;
 
 /// Which of the kGlows strengths the rate has, from 0, the weakest.
@@ -65,10 +63,6 @@ std::vector<Point> directions_of(const Contact& contact) {
   return directions_of(contact.is_right_free ? 0 : kUp, contact.is_left_free ? 2 * kUp : kUp);
 }
 
-std::uint32_t number_of(const Color& color) {
-  return std::uint32_t(color.red) << 16U | std::uint32_t(color.green) << 8U | color.blue;
-}
-
 }  // namespace
 
 Contact contact_of(double x_px, double floor_px, double left_px, double right_px,
@@ -88,30 +82,17 @@ Color color_of_hit(const MetPair& pair, const System& system,
 
 HitMarks::HitMarks(const DrawingContext& context, double most_reach_px, double most_glow_px)
     : reach_px_(std::min(most_reach_px, style::kHitReach * context.sizes.short_side)),
-      glow_px_(std::min(kGlowReach * reach_px_, most_glow_px)),
-      line_px_(kMarkLine * context.sizes.wall_line),
-      other_color_(context.palette.text) {
-  if (context.is_plane()) return;
-  add_glows(other_color_);
-  for (const BlockColors& colors : context.colors) {
-    if (glows_.size() < kCorners * kMostColors) add_glows(colors.line);
-  }
+      glow_px_(std::ceil(std::min(kGlowReach * reach_px_, most_glow_px))),
+      line_px_(context.sizes.wall_line),
+      corner_px_(context.layout.corner_px),
+      frames_per_s_(to_double(context.scene.view.frame_rate)),
+      flash_(context.palette.text) {}
+
+bool HitMarks::is_flash(double age_s) const {
+  return age_s * frames_per_s_ < kFlash_frames - kNegligible_frames;
 }
 
-/// Glows of one colour, in each free corner.
-void HitMarks::add_glows(const Color& color) {
-  for (const auto& [left, right] : {std::pair(false, true), {true, false}, {true, true}}) {
-    const Contact contact{{}, left, right, color};
-    Glows& glows = glows_[kind_of(contact)];
-    if (glows.empty()) glows = glows_of(contact);
-  }
-}
-
-std::tuple<bool, bool, std::uint32_t> HitMarks::kind_of(const Contact& contact) {
-  return {contact.is_left_free, contact.is_right_free, number_of(contact.color)};
-}
-
-void HitMarks::add_arc(ItemId id, double age_s, const Contact& contact,
+void HitMarks::add_arc(std::size_t n, double age_s, const Contact& contact,
                        std::vector<DrawItem>& items) const {
   const bool is_ring = !contact.is_left_free && !contact.is_right_free;
   const double left = 1 - age_s / kHitLife_s;  // of its life
@@ -122,49 +103,42 @@ void HitMarks::add_arc(ItemId id, double age_s, const Contact& contact,
   }
   arc.pop_back();
   if (!is_ring) arc.erase(arc.begin());
-  items.emplace_back(PathItem{id, std::move(arc), is_ring, std::nullopt,
-                              Stroke{faded(contact.color, left), line_px_}});
+  const Color color = is_flash(age_s) ? flash_ : faded(contact.color, left);
+  items.emplace_back(PathItem{nth(ItemId::hits, kIdsOfHit * n), std::move(arc), is_ring,
+                              std::nullopt, Stroke{color, line_px_}});
 }
 
-HitMarks::Glows HitMarks::glows_of(const Contact& contact) const {
-  const std::vector<Point> directions = directions_of(contact);
-  std::vector<Points> outlines;
-  for (int disc = 1; disc <= kGlowDiscs; ++disc) {
-    const double radius_px = glow_px_ * disc / kGlowDiscs;
-    std::vector<Point> outline = {{0, 0}};
-    for (const Point& direction : directions) outline.push_back(radius_px * direction);
-    outlines.emplace_back(std::move(outline));
-  }
-  Glows glows;
-  for (int glow = 0; glow < kGlows; ++glow) {
-    const Color color = faded(contact.color, opacity_of_glow(glow));
-    Plate plate;
-    for (const Points& outline : outlines) {
-      plate.items.emplace_back(PathItem{ItemId::hits, outline, true, color, std::nullopt});
-    }
-    glows.push_back(std::make_shared<const Plate>(std::move(plate)));
-  }
-  return glows;
+void HitMarks::add_edges(std::size_t n, double age_s, const std::optional<Rect>& left,
+                         const std::optional<Rect>& right, std::vector<DrawItem>& items) const {
+  if (!is_flash(age_s)) return;
+  const auto add = [&](std::size_t side, double x, const Rect& block) {
+    items.emplace_back(RectangleItem{
+        nth(ItemId::hits, kIdsOfHit * n + side),
+        {x, block.y + corner_px_, line_px_, std::max(0.0, block.height - 2 * corner_px_)},
+        flash_,
+        std::nullopt});
+  };
+  if (left) add(1, left->right() - line_px_, *left);
+  if (right) add(2, right->x, *right);
 }
 
 void HitMarks::add_glow(double hits_per_s, std::span<const Contact> contacts,
                         std::vector<DrawItem>& items) const {
   if (hits_per_s <= kMaxHitsPerSecond) return;
-  const auto glow = static_cast<std::size_t>(glow_of(hits_per_s));
-  const double reach_px = std::ceil(glow_px_) + 1;
+  const double opacity = opacity_of_glow(glow_of(hits_per_s));
   std::size_t n = 0;
   for (const Contact& contact : contacts) {
-    auto glows = glows_.find(kind_of(contact));
-    if (glows == glows_.end()) {
-      Contact other = contact;
-      other.color = other_color_;
-      glows = glows_.find(kind_of(other));
-    }
+    const double left = contact.is_left_free ? glow_px_ : 0;
+    const double right = contact.is_right_free ? glow_px_ : 0;
+    const GlowItem glow{ItemId::hits,
+                        {-left, -glow_px_, left + right, glow_px_},
+                        {},
+                        glow_px_,
+                        faded(contact.color, opacity)};
     const Point at{std::round(contact.at.x), std::round(contact.at.y)};
-    items.emplace_back(PlateItem{nth(ItemId::hits, n++),
-                                 {at.x - reach_px, at.y - reach_px, 2 * reach_px, reach_px + 1},
-                                 glows->second[glow],
-                                 at});
+    // Its pixels are kept.
+    items.emplace_back(PlateItem{nth(ItemId::hits, n++), glow.bounds + at,
+                                 std::make_shared<const Plate>(Plate{{glow}}), at});
   }
 }
 
@@ -184,8 +158,10 @@ class LineMarks {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     for (std::size_t n = 0; n < shown.hits.size(); ++n) {
       const Hit& hit = shown.hits[n];
+      const auto [left, right] = from_left(hit.pair, shown);
       const Contact contact = contact_at(hit.pair, layout_.at(hit.contact).x, shown);
-      marks_.add_arc(nth(ItemId::hits, n), hit.age_s, contact, items);
+      marks_.add_arc(n, hit.age_s, contact, items);
+      marks_.add_edges(n, hit.age_s, block_at(left, shown), block_at(right, shown), items);
     }
     if (shown.hits_per_s <= kMaxHitsPerSecond) return;
     std::vector<Contact> contacts;
@@ -228,20 +204,27 @@ class LineMarks {
     return system_.walls[id - colors_.size()].normal[0] > 0 ? -HUGE_VAL : HUGE_VAL;
   }
 
-  Contact contact_at(const MetPair& pair, double x_px, const FrameState& shown) const {
+  MetPair from_left(const MetPair& pair, const FrameState& shown) const {
     const auto [first, second] = pair;
-    const bool is_first_left = position(first, shown) < position(second, shown);
-    return contact_of(x_px, layout_.floor_px, height_px(is_first_left ? first : second),
-                      height_px(is_first_left ? second : first),
+    if (position(first, shown) < position(second, shown)) return pair;
+    return {second, first};
+  }
+
+  std::optional<Rect> block_at(std::size_t id, const FrameState& shown) const {
+    return is_wall(id) ? std::nullopt : std::optional(layout_.at(id, shown));
+  }
+
+  Contact contact_at(const MetPair& pair, double x_px, const FrameState& shown) const {
+    const auto [left, right] = from_left(pair, shown);
+    return contact_of(x_px, layout_.floor_px, height_px(left), height_px(right),
                       color_of_hit(pair, system_, colors_));
   }
 
   double present_x_px(const MetPair& pair, const FrameState& shown) const {
-    const auto [first, second] = pair;
+    const std::size_t second = pair[1];
     if (is_wall(second))
       return layout_.at(to_double(system_.walls[second - colors_.size()].point[0]), 0).x;
-    const bool is_first_left = position(first, shown) < position(second, shown);
-    return layout_.at(is_first_left ? second : first, shown).x;
+    return layout_.at(from_left(pair, shown)[1], shown).x;
   }
 
   Layout layout_;
@@ -262,7 +245,7 @@ Drawable hit_marks(const DrawingContext& context) {
     for (std::size_t n = 0; n < shown.hits.size(); ++n) {
       const Hit& hit = shown.hits[n];
       const Contact ring{layout.at(hit.contact), false, false, color};
-      marks.add_arc(nth(ItemId::hits, n), hit.age_s, ring, items);
+      marks.add_arc(n, hit.age_s, ring, items);
     }
   };
   return {add, needs};

@@ -2,10 +2,9 @@
 // In: a FrameState, and where bodies touch. Out: items above the lower body's edge.
 #pragma once
 
-#include <map>
-#include <memory>
+#include <cstddef>
+#include <optional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "draw/layout.hpp"
@@ -35,24 +34,26 @@ class HitMarks {
   /// @param most_glow_px    and glows, which must not meet above a narrow block
   HitMarks(const DrawingContext& context, double most_reach_px, double most_glow_px);
 
-  /// An arc that grows and fades.
-  void add_arc(ItemId id, double age_s, const Contact& contact, std::vector<DrawItem>& items) const;
-  /// A steady light at contacts. Nothing if hits are few. @param contacts  none at another's place
+  /// An arc that grows and fades. At first it flashes. @param n  of the hits that are seen
+  void add_arc(std::size_t n, double age_s, const Contact& contact,
+               std::vector<DrawItem>& items) const;
+  /// The edges of two blocks that have met, while their arc flashes. @param left, right  nothing
+  /// for a wall, whose face has the color of the flash
+  void add_edges(std::size_t n, double age_s, const std::optional<Rect>& left,
+                 const std::optional<Rect>& right, std::vector<DrawItem>& items) const;
+  /// A steady light at contacts. Nothing if hits are few.
   void add_glow(double hits_per_s, std::span<const Contact> contacts,
                 std::vector<DrawItem>& items) const;
 
  private:
-  /// By strength, from the weakest, around a contact at the origin.
-  using Glows = std::vector<std::shared_ptr<const Plate>>;
-  static std::tuple<bool, bool, std::uint32_t> kind_of(const Contact& contact);
-  Glows glows_of(const Contact& contact) const;
-  void add_glows(const Color& color);
+  bool is_flash(double age_s) const;
 
   double reach_px_;  ///< of arcs
   double glow_px_;   ///< and of glows
   double line_px_;
-  Color other_color_;  ///< of glows, for colours beyond the most
-  std::map<std::tuple<bool, bool, std::uint32_t>, Glows> glows_;  ///< by kind_of()
+  double corner_px_;
+  double frames_per_s_;
+  Color flash_;
 };
 
 /// The marks of the stage.

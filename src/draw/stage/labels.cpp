@@ -22,7 +22,9 @@ constexpr double kHeightWithUnit_em = 1.2;
 constexpr double kMostOfDisc = 0.86;
 /// Between a block and the label above it, in fractions of the frame's shorter side.
 constexpr double kBelowLabel = 0.016;
-/// And between that label and what is above it.
+/// Between the floor and a label below it.
+constexpr double kBelowFloor = 0.022;
+/// And between a label above its block and what is above that.
 constexpr double kAboveLabel = 0.006;
 
 /// What a body's label says; empty if it has none.
@@ -60,6 +62,8 @@ class BlockTexts {
   /// On the block; or above it, if it is heavier than its neighbours and none of them would run into
   /// the label.
   bool has_place(std::size_t body) const { return has_place(text(body), body); }
+  /// Below the floor, if it has a label without a place on the block or above it.
+  bool is_below(std::size_t body) const { return !text(body).empty() && !has_place(body); }
 
  private:
   bool has_place(const std::string& text, std::size_t body) const {
@@ -95,7 +99,7 @@ class BlockTexts {
     for (std::size_t i = 0; i < full.size(); ++i) {
       if (!full[i].is_mass) continue;
       full[i].text += " kg";
-      if (!has_place(full[i].text, i)) return;
+      if (!has_place(full[i].text, i) && has_place(i)) return;
     }
     texts_ = std::move(full);
   }
@@ -183,6 +187,19 @@ class LabelRoom {
   double pad_;
 };
 
+/// The blocks whose labels do not fit on them.
+std::vector<std::size_t> labelled_beside(const LayoutContext& context, const Layout& layout,
+                                         bool is_below) {
+  if (!has_labels(context) || context.is_plane()) return {};
+  const BlockTexts texts(context, layout);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < layout.shapes.size(); ++i) {
+    const bool is_beside = !texts.text(i).empty() && !texts.fits(i);
+    if (is_beside && texts.is_below(i) == is_below) found.push_back(i);
+  }
+  return found;
+}
+
 [[noreturn]] void throw_no_room(const DrawingContext& context, const BlockTexts& texts,
                                 std::size_t body) {
   const Layout& layout = context.layout;
@@ -203,7 +220,16 @@ class LabelRoom {
 
 void check_room(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
   if (texts.fits(body)) return;
-  if (!texts.has_place(body)) throw_no_room(context, texts, body);
+  if (texts.is_below(body)) {
+    // Below two blocks that meet, labels might meet too; and a scale may be there.
+    const bool is_alone = labelled_below(context, context.layout).size() == 1;
+    const bool is_wide =
+        context.font.width_em(texts.text(body)) * context.sizes.mass > text_columns(context).width();
+    const bool has_room =
+        context.layout.below_px + kRounded_px >= label_room_below_px(context.sizes);
+    if (is_alone && !is_wide && has_room && !context.scene.show.has(Overlay::ruler)) return;
+    throw_no_room(context, texts, body);
+  }
   const double needed = label_room_px(context.sizes);
   if (context.layout.above_px + kRounded_px >= needed) return;
   throw UsageError(fmt::format(
@@ -235,9 +261,12 @@ Label label_of(const DrawingContext& context, const BlockTexts& texts, std::size
   const Layout& layout = context.layout;
   const double height = layout.height_px(body);
   const bool is_inside = texts.fits(body);
-  const double baseline = is_inside
-                              ? layout.floor_px - height / 2 + kHalfFigure_em * context.sizes.mass
-                              : layout.floor_px - height - kBelowLabel * context.sizes.short_side;
+  const Sizes& sizes = context.sizes;
+  double baseline = layout.floor_px - height / 2 + kHalfFigure_em * sizes.mass;
+  if (!is_inside) baseline = layout.floor_px - height - kBelowLabel * sizes.short_side;
+  if (texts.is_below(body)) {
+    baseline = layout.floor_px + kBelowFloor * sizes.short_side + Font::kCapHeight_em * sizes.mass;
+  }
   const ItemId id = nth(ItemId::masses, layout.shapes.size() - 1 - body);
   return label_at(context, id, body, texts.text(body), is_inside, baseline);
 }
@@ -303,6 +332,11 @@ bool has_masses(const Scene& scene) {
   return std::ranges::count(shown, Overlay::masses) > 0;
 }
 
+double label_room_below_px(const Sizes& sizes) {
+  constexpr double kDescent_em = 0.22;
+  return kBelowFloor * sizes.short_side + (Font::kCapHeight_em + kDescent_em) * sizes.mass;
+}
+
 bool has_labels(const LayoutContext& context) {
   return has_masses(context.scene) ||
          std::ranges::any_of(context.scene.styles,
@@ -310,13 +344,11 @@ bool has_labels(const LayoutContext& context) {
 }
 
 std::vector<std::size_t> labelled_above(const LayoutContext& context, const Layout& layout) {
-  if (!has_labels(context) || context.is_plane()) return {};
-  const BlockTexts texts(context, layout);
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < layout.shapes.size(); ++i) {
-    if (!texts.text(i).empty() && !texts.fits(i)) found.push_back(i);
-  }
-  return found;
+  return labelled_beside(context, layout, false);
+}
+
+std::vector<std::size_t> labelled_below(const LayoutContext& context, const Layout& layout) {
+  return labelled_beside(context, layout, true);
 }
 
 std::vector<std::size_t> from_left_to_right(const System& line) {

@@ -92,23 +92,30 @@ class Discs {
   std::vector<BlockColors> colors_;
 };
 
-/// What is beside the stage of a row, and hides blocks that pass behind it: the counter.
-std::optional<RectangleItem> cover_of(const DrawingContext& context) {
+/// What is beside the stage of a row hides blocks that pass behind it: the counter. A line shows
+/// where they vanish.
+std::vector<DrawItem> cover_of(const DrawingContext& context) {
   const View& view = context.scene.view;
+  const Layout& layout = context.layout;
   const std::optional<Color> background = background_of(view);
-  if (!background || context.layout.visible_right_px >= view.width_px) return std::nullopt;
-  const double left = context.layout.content_right_px;
-  return RectangleItem{nth(ItemId::blue_block, kCover),
-                       {left, 0, view.width_px - left, double(view.height_px)},
-                       background,
-                       std::nullopt};
+  if (!background || layout.visible_right_px >= view.width_px) return {};
+  const double left = layout.content_right_px;
+  const double top = layout.top_px() - kWallAbove * context.sizes.short_side;
+  return {RectangleItem{nth(ItemId::blue_block, kCover),
+                        {left, 0, view.width_px - left, double(view.height_px)},
+                        background,
+                        std::nullopt},
+          RectangleItem{nth(ItemId::blue_block, kCover + 1),
+                        {left, top, context.sizes.grid_line, layout.wall_bottom_px - top},
+                        context.palette.grid,
+                        std::nullopt}};
 }
 
 }  // namespace
 
-ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, double line_px) {
-  ExposedBlock block{bounds, colors.fill, Stroke{colors.edge, line_px}, {}, {}};
-  const double height = std::min(2 * line_px, kBarSpacing * bounds.height / 2);
+ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, const Layout& layout) {
+  ExposedBlock block{bounds, colors.fill, Stroke{colors.edge, layout.line_px}, layout.corner_px};
+  const double height = std::min(2 * layout.line_px, kBarSpacing * bounds.height / 2);
   for (int bar = 1; bar <= colors.bars; ++bar) {
     const bool is_upper = 2 * bar <= colors.bars;
     const double down = kBarSpacing * (is_upper ? bar : bar - colors.bars - 1);
@@ -128,8 +135,7 @@ void add_blocks(const FrameState& shown, const Layout& layout,
   std::vector<PlacedBody> blocks;
   blocks.reserve(count);
   for (std::size_t i = count; i-- > 0;) {
-    blocks.push_back(
-        {id_of(i, count), i, block_at(layout.at(i, shown), colors[i], layout.line_px)});
+    blocks.push_back({id_of(i, count), i, block_at(layout.at(i, shown), colors[i], layout)});
   }
   const PixelRect seen{0, 0, int(std::ceil(layout.visible_right_px)),
                        int(std::ceil(layout.wall_bottom_px))};
@@ -147,7 +153,7 @@ Drawable bodies(const DrawingContext& context) {
   return {[cover = cover_of(context), layout = context.layout, colors = context.colors](
               const FrameState& shown, std::vector<DrawItem>& items) {
     add_blocks(shown, layout, colors, items);
-    if (cover) items.emplace_back(*cover);
+    items.insert(items.end(), cover.begin(), cover.end());
   }};
 }
 

@@ -67,15 +67,17 @@ void add_blocks(const FrameState& shown, const Layout& layout,
 /// Whether the scene shows masses, by itself or by its theme.
 bool has_masses(const Scene& scene);
 /// The label of each body, or its mass if the scene shows masses: on the body; or above it, if it
-/// is a block that is heavier and no lower than its neighbours, or a disc.
+/// is a block that is heavier and no lower than its neighbours, or a disc; else below the floor.
 /// @throws UsageError if one has no room.
 Drawable body_labels(const DrawingContext& context);
 /// Whether the scene shows any label or mass.
 bool has_labels(const LayoutContext& context);
-/// The blocks whose labels are above them.
+/// The blocks whose labels are above them, or below the floor.
 std::vector<std::size_t> labelled_above(const LayoutContext& context, const Layout& layout);
+std::vector<std::size_t> labelled_below(const LayoutContext& context, const Layout& layout);
 /// Room that a label needs above its block, in pixels.
 double label_room_px(const Sizes& sizes);
+double label_room_below_px(const Sizes& sizes);
 
 /// Arrows above blocks, with figures where there is room for all of them. Velocities of one run
 /// differ by the square root of the mass ratio, so lengths grow less and less with the velocity, up
@@ -86,20 +88,30 @@ Drawable velocity_arrows(const DrawingContext& context);
 /// Room that the scene's overlays need above the tallest block, in pixels.
 double room_above_px(const LayoutContext& context, const Layout& layout);
 /// The same below the floor.
-double room_below_px(const Scene& scene);
+double room_below_px(const LayoutContext& context, const Layout& layout);
 
-/// A hatched wall, its face from one place to the other, with the bodies on the left of this way.
+/// Strokes at 45 degrees behind a face, in fractions of the frame's shorter side.
+struct Hatch {
+  double width;
+  double step;  ///< along the face
+};
+inline constexpr Hatch kWallHatch = {style::kWallWidth, 0.02};
+inline constexpr Hatch kFloorHatch = {0.013, 0.03};
+
+/// A hatched wall or floor, its face from one place to the other, with the bodies on the left of
+/// this way.
 /// @param beyond_px  how far the face's line is longer at both ends
-std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,
-                                   const DrawingContext& context, double beyond_px = 0);
+std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
+                                   const DrawingContext& context, const Hatch& hatch,
+                                   double beyond_px = 0);
 
 /// The walls of a layout, and the floor of a line.
 std::vector<DrawItem> stage_walls(const DrawingContext& context);
 /// Those of the article's picture: bodies of width 1 whose faces are where blocks turn back.
 std::vector<DrawItem> article_walls(const DrawingContext& context);
 
-/// A block in the colours and with the bars of the theme.
-ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, double line_px);
+/// A block with the lines and corners of a layout, in the colours and with the bars of the theme.
+ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, const Layout& layout);
 
 /// Items that never change. @param bounds  around them; they become whole pixels
 PlateItem plate_of(ItemId id, const Rect& bounds, std::vector<DrawItem> items);

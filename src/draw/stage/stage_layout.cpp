@@ -8,6 +8,7 @@
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
+#include "draw/overlays/loupe_gap.hpp"
 #include "draw/stage/stage.hpp"
 #include "scene/schedule.hpp"
 
@@ -16,6 +17,9 @@ namespace {
 
 /// A block is higher by this for every factor of ten in mass, in heights of the lightest.
 constexpr double kHeightByMass = 0.25;
+/// Below a loupe that is as wide as most of the frame blocks are a strip, so high at most, in
+/// fractions of the frame's shorter side.
+constexpr double kStrip = 0.2;
 /// More bodies have no labels, masses or arrows, nor are more drawn at all.
 constexpr std::size_t kMostMarked = 10'000;
 constexpr std::size_t kMostDrawn = 50'000;
@@ -83,21 +87,27 @@ Layout lay_out_line(const LayoutContext& context, const FramePlan& plan) {
   layout.content_right_px = area.right() - sizes.margin;
   layout.visible_right_px = plan.axis.visible_right_px;
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
+  layout.corner_px = sizes.corner;
   layout.scale = plan.axis.scale;
 
-  const double below = sizes.wall_line + room_below_px(context.scene);
   set_blocks(context.scene.system, layout);
+  const bool is_strip = has_stage_loupe(context.scene.show);
   double above = 0;
+  double below = 0;
   double room = 0;
   do {
     above = room_above_px(context, layout);
+    below = std::max(kFloorHatch.width * sizes.short_side,
+                     sizes.wall_line + room_below_px(context, layout));
     room = area.height - below - std::max(kWallAbove * sizes.short_side, above);
+    if (is_strip) room = std::min(room, kStrip * sizes.short_side);
     fit_heights(room, view, layout);
-    // If a block is now too low for its label, that moves above it and needs room there.
-  } while (room_above_px(context, layout) > above);
+    // If a block is now too low for its label, that moves above or below it and needs room there.
+  } while (room_above_px(context, layout) > above ||
+           sizes.wall_line + room_below_px(context, layout) > below);
   // What is left over is above and below in equal parts.
-  const double rest =
-      plan.is_floor_at_bottom ? 0 : (room - (layout.floor_px - layout.top_px())) / 2;
+  double rest = plan.is_floor_at_bottom ? 0 : (room - (layout.floor_px - layout.top_px())) / 2;
+  if (is_strip) rest = std::max(0.0, area.bottom() - below - (view.height_px - sizes.margin));
   layout.floor_px = std::floor(area.bottom() - below - rest);
   layout.origin = {plan.axis.origin_px, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;

@@ -15,7 +15,6 @@ namespace piblocks {
 namespace {
 
 /// In fractions of the frame's shorter side.
-constexpr double kHatchStep = 0.02;
 constexpr double kAngleArc = 0.2;
 /// Between a wall's face and a text.
 constexpr double kBesideWall_em = 0.25;
@@ -42,12 +41,12 @@ struct WallMap {
   Point along;
 };
 
-PlateItem wall_plate(ItemId id, const Point& from, const Point& to, const DrawingContext& context,
-                     double beyond_px = 0) {
-  const double width = style::kWallWidth * context.sizes.short_side;
+PlateItem face_plate(ItemId id, const Point& from, const Point& to, const DrawingContext& context,
+                     const Hatch& hatch, double beyond_px = 0) {
+  const double width = hatch.width * context.sizes.short_side;
   const WallMap map(from, to);
   return plate_of(id, map.bounds(-1 - beyond_px, map.length + 1 + beyond_px, -1, width + 1),
-                  hatched_wall(from, to, context, beyond_px));
+                  hatched_face(from, to, context, hatch, beyond_px));
 }
 
 /// Along a wall, from the first place to the second.
@@ -123,8 +122,8 @@ std::vector<DrawItem> walls_of_plane(const DrawingContext& context) {
     };
     seen.emplace_back(at(part.from), at(part.to));
     // The lines of walls that meet overlap.
-    items.emplace_back(wall_plate(nth(ItemId::wall, items.size()), at(part.from), at(part.to),
-                                  context, context.sizes.wall_line / 2));
+    items.emplace_back(face_plate(nth(ItemId::wall, items.size()), at(part.from), at(part.to),
+                                  context, kWallHatch, context.sizes.wall_line / 2));
   }
   if (!context.scene.show.has(Overlay::angles)) return items;
   constexpr double kSamePlace_px = 0.5;
@@ -152,18 +151,20 @@ std::vector<DrawItem> walls_of_line(const DrawingContext& context) {
   if (seen.left) {
     const double face = layout.at(to_double(*seen.left), 0).x;
     items.emplace_back(
-        wall_plate(ItemId::wall, {face, top}, {face, layout.wall_bottom_px}, context));
+        face_plate(ItemId::wall, {face, top}, {face, layout.wall_bottom_px}, context, kWallHatch));
     left = face - line;
   }
   if (seen.right) right = layout.at(to_double(*seen.right), 0).x + line;
-  items.emplace_back(RectangleItem{nth(ItemId::wall, 1),
-                                   {left, layout.floor_px, right - left, line},
-                                   context.palette.wall,
-                                   std::nullopt});
+  const Point floor_left{left, layout.floor_px};
+  const Point floor_right{right, layout.floor_px};
+  // A scale takes the place of the hatch.
+  Hatch hatch = kFloorHatch;
+  if (context.scene.show.has(Overlay::ruler)) hatch.width = 0;
+  items.emplace_back(face_plate(nth(ItemId::wall, 1), floor_left, floor_right, context, hatch));
   if (seen.right) {
     const double face = right - line;
-    items.emplace_back(
-        wall_plate(nth(ItemId::wall, 2), {face, layout.wall_bottom_px}, {face, top}, context));
+    items.emplace_back(face_plate(nth(ItemId::wall, 2), {face, layout.wall_bottom_px}, {face, top},
+                                  context, kWallHatch));
   }
   return items;
 }
@@ -214,24 +215,30 @@ Columns text_columns_between_walls(const DrawingContext& context) {
   return {left, right};
 }
 
-std::vector<DrawItem> hatched_wall(const Point& from, const Point& to,
-                                   const DrawingContext& context, double beyond_px) {
+std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
+                                   const DrawingContext& context, const Hatch& hatch,
+                                   double beyond_px) {
   const Sizes& sizes = context.sizes;
   const WallMap at(from, to);
-  const double width = style::kWallWidth * sizes.short_side;
+  const double width = hatch.width * sizes.short_side;
   const double line = sizes.wall_line;
   // The face hides the corners of a hatch's end.
   const double nearest = std::min(line / 2, width / 2);
+  // In the same direction on all walls and floors that are level or upright.
+  const bool is_level = std::abs(at.along.x) > std::abs(at.along.y);
+  const auto end_at = [&](double on, double behind) {
+    return at(is_level ? at.length - on : on, behind);
+  };
   std::vector<DrawItem> items;
-  for (double s = 0; s < at.length + width; s += kHatchStep * sizes.short_side) {
+  for (double s = 0; s < at.length + width; s += hatch.step * sizes.short_side) {
     // At 45 degrees, cut off at the wall's ends.
     const double begin = std::max(nearest, width - s);
     const double end = std::min(width, width + at.length - s);
     if (end <= begin) continue;
     items.emplace_back(
         PathItem{nth(ItemId::wall, items.size()),
-                 std::vector<Point>{at(s - width + begin, begin), at(s - width + end, end)}, false,
-                 std::nullopt, Stroke{context.palette.muted, sizes.grid_line}});
+                 std::vector<Point>{end_at(s - width + begin, begin), end_at(s - width + end, end)},
+                 false, std::nullopt, Stroke{context.palette.muted, sizes.grid_line}});
   }
   const ItemId id = nth(ItemId::wall, items.size());
   const double last = at.length + beyond_px;

@@ -24,7 +24,7 @@ const GROUPS = [
     {key: "view.theme", label: "Theme", kind: "choice", choices: "themes"},
     {key: "show.overlays", label: "Overlays", kind: "names", choices: "overlays"},
     {key: "show.panels", label: "Diagrams", kind: "names", choices: "panels"},
-    {key: "show.loupe", label: "Loupe", hints: ["auto", "off"], empty: null, of: "line"},
+    {key: "show.loupe", label: "Loupe", hints: ["auto", "stage", "off"], empty: null, of: "line"},
     {key: "show.hits", label: "Hit marks", kind: "flag"},
     {key: "show.title", label: "Title", empty: ""},
     {key: "show.caption", label: "Caption", empty: ""}]},
