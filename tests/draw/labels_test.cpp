@@ -131,10 +131,9 @@ TEST(Labels, MassesOfTheThemeAreThereUnlessOneHasNoPlace) {
   // Blue is too narrow, and red would run into a label above it.
   const Setting narrow{"blue.width", "1/10"};
   EXPECT_TRUE(masses({narrow}).empty());
-  EXPECT_THROW(masses({narrow, {"show.overlays", "masses"}}), UsageError);
+  EXPECT_EQ(masses({narrow, {"show.overlays", "masses"}}).size(), 2U) << "below the floor";
 }
 
-/// Half a figure, at the frame's edge, is another number.
 /// A mass that does not fit on the lighter block is below the floor, and stays below its block.
 TEST(Labels, AMassIsBelowTheFloorWhereItsBlockIsSmall) {
   Scene scene = scene_with(
@@ -155,10 +154,11 @@ TEST(Labels, AMassIsBelowTheFloorWhereItsBlockIsSmall) {
     EXPECT_LT(masses.front().origin.y, blue.y) << "red's is above red";
   }
   // Where a scale is, there is no room.
-  scene.show.overlays.push_back(Overlay::ruler);
+  scene.show.overlays->push_back(Overlay::ruler);
   EXPECT_THROW(Pictures{scene}, UsageError);
 }
 
+/// Half a figure, at the frame's edge, is another number.
 TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
   const Font font;
   const auto expect_whole = [&](const Range& view, const char* red_position, std::size_t count) {
