@@ -80,6 +80,7 @@ TEST(Shutter, FramesOfAnySpeedAreMeansOfInstants) {
 TEST(Shutter, FramesOfRoundBlocksAreMeansOfInstants) {
   Scene scene = scene_of(3, {1280, 720}, Rational(1, 2));
   scene.view.theme = Theme::lecture;
+  scene.show.overlays.emplace();  // masses are those of the frame's instant
   scene.show.hits = false;
   scene.show.loupe = Loupe{.is_on = false};
   const DrawList list = Pictures(scene).at(0);
