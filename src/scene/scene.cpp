@@ -231,8 +231,8 @@ std::vector<Overlay> overlays_of(const Scene& scene) {
   if (scene.show.overlays) return *scene.show.overlays;
   constexpr std::size_t kMostMasses = 12;
   const System& system = scene.system;
-  const bool has_masses = is_lecture(scene.view.theme) && system.dimensions == 1 &&
-                          system.bodies.size() <= kMostMasses;
+  const bool has_masses =
+      is_lecture(scene.view.theme) && system.dimensions == 1 && system.bodies.size() <= kMostMasses;
   return has_masses ? std::vector{Overlay::masses} : std::vector<Overlay>();
 }
 

@@ -38,9 +38,9 @@ position = 5
 )";
 
 /// Scenes of the program whose collisions end, or whose film does.
-inline constexpr std::array kBodyScenes{"three-blocks", "two-walls", "row",  "cradle",
-                                        "superball",    "gas",  "billiard",
-                                        "brownian",     "wedge",     "touch"};
+inline constexpr std::array kBodyScenes{"three-blocks", "two-walls", "row",      "cradle",
+                                        "superball",    "gas",       "billiard", "brownian",
+                                        "wedge",        "touch"};
 
 class BodiesCli : public CliFixture {
  protected:

@@ -20,7 +20,9 @@ TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
 TEST_F(BodiesCli, WhatCannotBePaintedIsRefused) {
   const auto expect = [&](const std::string& scene, const std::string& message) {
     write("scene.toml", scene);
-    expect_line({"still", "scene.toml", "--at", "0", "--theme", "article", "--size", "640x480", "-o", "a.png"}, message);
+    expect_line({"still", "scene.toml", "--at", "0", "--theme", "article", "--size", "640x480",
+                 "-o", "a.png"},
+                message);
   };
   expect(
       "[[body]]\nmass = 'inf'\nradius = 100000\nposition = [0, -100000]\n[[body]]\n"

@@ -11,8 +11,8 @@ namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
 
-/// In 4:2:0 a pixel may have all of its neighbour's chroma instead of its own. That of the red block
-/// is the greatest: its red is 125 above its luma.
+/// In 4:2:0 a pixel may have all of its neighbour's chroma instead of its own. That of the red
+/// block is the greatest: its red is 125 above its luma.
 constexpr const char* kMostChroma = "125";
 
 class CompareTest : public CompareFixture {

@@ -8,9 +8,9 @@ namespace fs = std::filesystem;
 class CompareVideoTest : public CompareFixture {
  protected:
   void render(const std::string& name, const Arguments& options = {}) const {
-    output_of(
-        Arguments{"render", "--quiet", "--theme", "article", "--size", "64x36", "--fps", "10", "--to", "1", "-o", name} +
-        options);
+    output_of(Arguments{"render", "--quiet", "--theme", "article", "--size", "64x36", "--fps", "10",
+                        "--to", "1", "-o", name} +
+              options);
   }
 };
 

@@ -12,7 +12,8 @@ class GoldenTest : public CliFixture {
  protected:
   void SetUp() override {
     write("scene.toml",
-          "[red]\nmass = 100\n[time]\nto = 7\n[view]\nfps = 4\ntheme = 'article'\n[golden]\nsize = [160, 90]\n"
+          "[red]\nmass = 100\n[time]\nto = 7\n[view]\nfps = 4\ntheme = 'article'\n[golden]\nsize = "
+          "[160, 90]\n"
           "frames = [0, \"last\", \"#7\", \"7/2\"]\n");
   }
   CommandResult golden(const char* action, const Arguments& more = {}) const {
@@ -47,7 +48,9 @@ TEST_F(GoldenTest, FramesAreRoundedToEvenSides) {
                                    {"1001x751", "480x360"},
                                    {"4096x2", "480x2"},
                                    {"320x180", "320x180"}}) {
-    write("scene.toml", fmt::format("time.to = 0.1\nview.fps = 10\nview.size = '{}'\nview.theme = 'article'\n", size));
+    write("scene.toml",
+          fmt::format("time.to = 0.1\nview.fps = 10\nview.size = '{}'\nview.theme = 'article'\n",
+                      size));
     fs::remove_all(folder_ / "refs");
     expect(golden("record"), 0, "scene: recorded");
     EXPECT_TRUE(

@@ -6,7 +6,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kScene =
-    "[view]\nsize = [64, 36]\nfps = 4\ntheme = \"article\"\n[show]\nlogo = \"pictures/000001.png\"\n"
+    "[view]\nsize = [64, 36]\nfps = 4\ntheme = \"article\"\n[show]\nlogo = "
+    "\"pictures/000001.png\"\n"
     "[time]\nto = 1\n[golden]\nsize = [64, 36]\nframes = [0]\n";
 
 struct Case {
@@ -27,7 +28,9 @@ class OverwritingTest : public CliFixture, public testing::WithParamInterface<Ca
     }
     fs::copy(folder_ / "pictures", folder_ / "others");
     write("scene.toml", kScene);
-    write("story.toml", "view = { size = \"64x36\", theme = \"article\" }\n[[part]]\nshow.logo = \"pictures/000001.png\"\n");
+    write("story.toml",
+          "view = { size = \"64x36\", theme = \"article\" }\n[[part]]\nshow.logo = "
+          "\"pictures/000001.png\"\n");
     fs::create_hard_link(folder_ / "scene.toml", folder_ / "hard.mp4");
     fs::create_symlink("scene.toml", folder_ / "soft.mp4");
     fs::create_symlink("pictures", folder_ / "shortcut");
@@ -145,8 +148,8 @@ TEST_F(AppendingTest, BesideWhatIsReadIsFine) {
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "a/000001.png"});
   output_of({"compare", "a/000001.png", "a/000001.png", "--report", "a/r.html", "--junit", "r.xml",
              "--diff", "a/d"});
-  output_of({"render", "--quiet", "--theme", "article", "--logo", "a/000001.png", "--size", "64x36", "--to", "1", "-o",
-             "a/f%06d.png"});
+  output_of({"render", "--quiet", "--theme", "article", "--logo", "a/000001.png", "--size", "64x36",
+             "--to", "1", "-o", "a/f%06d.png"});
   EXPECT_TRUE(fs::exists(folder_ / "a/f000001.png"));
 }
 

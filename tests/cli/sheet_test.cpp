@@ -71,8 +71,7 @@ TEST_F(SheetTextTest, SpacesPicturesByTime) {
 TEST_F(SheetTextTest, SpacesPicturesByCountAroundTheTurn) {
   const Arguments counts = {"article", "--digits", "2", "--frames", "4"};
   const std::string text = text_of(counts);
-  for (const char* count :
-       {"Collisions:0", "Collisions:10", "Collisions:21", "Collisions:31"}) {
+  for (const char* count : {"Collisions:0", "Collisions:10", "Collisions:21", "Collisions:31"}) {
     EXPECT_EQ(count_of(text, count), 1u) << count << " is not in " << text;
   }
   EXPECT_EQ(text_of(counts + Arguments{"--by", "count"}), text);

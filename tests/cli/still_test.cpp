@@ -73,7 +73,9 @@ TEST_F(StillTest, VectorFilesAreSharpAndSaySo) {
 
 TEST_F(StillTest, ExposureDependsOnRateAndSpeed) {
   const auto picture = [&](const Arguments& more) {
-    return output_of(Arguments{"still", "--at", "4", "--theme", "article", "--size", "320x180", "-o", "-"} + more);
+    return output_of(
+        Arguments{"still", "--at", "4", "--theme", "article", "--size", "320x180", "-o", "-"} +
+        more);
   };
   const std::string half = picture({"--shutter", "0.5"});
   EXPECT_NE(half, picture({}));
@@ -103,7 +105,9 @@ TEST_F(StillTest, ReplacesAFileAndKeepsItsNeighbours) {
 
 TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {
   const auto expect = [&](const char* size, const Arguments& show, const std::string& message) {
-    expect_refusal(Arguments{"still", "--at", "3", "--theme", "article", "-o", "a.png", "--size", size} + show, message);
+    expect_refusal(
+        Arguments{"still", "--at", "3", "--theme", "article", "-o", "a.png", "--size", size} + show,
+        message);
   };
   expect("120x12", {"--show", "time"},
          "show: 'time' leaves too little room for the blocks in 120x12; leave");
@@ -128,10 +132,14 @@ TEST_F(StillTest, RefusesTextThatNeedsShaping) {
 /// Any still is a picture.
 TEST_F(StillTest, LogosOfAnyShapeAreShownOrRefused) {
   const auto logo = [&](const std::string& size, const Arguments& more = {}) {
-    output_of(Arguments{"still", "--at", "3", "--theme", "article", "--size", size, "-o", size + ".png"} + more);
-    return Arguments{"still", "--at", "3", "--theme", "article", "-o", "a.png", "--logo", size + ".png"};
+    output_of(
+        Arguments{"still", "--at", "3", "--theme", "article", "--size", size, "-o", size + ".png"} +
+        more);
+    return Arguments{"still", "--at",  "3",      "--theme",    "article",
+                     "-o",    "a.png", "--logo", size + ".png"};
   };
-  const std::string plain = output_of({"still", "--at", "3", "--theme", "article", "--size", "640x360", "-o", "-"});
+  const std::string plain =
+      output_of({"still", "--at", "3", "--theme", "article", "--size", "640x360", "-o", "-"});
   for (const char* size : {"1x1", "3x2", "640x360", "4000x3000", "16x1", "1x16"}) {
     const Arguments still = logo(size);
     output_of(still + Arguments{"--size", "640x360"});

@@ -17,8 +17,8 @@ class TerminalTest : public CliFixture {
   }
 };
 
-const Arguments kRenderForTerminal{"render", "article", "--size", "640x360", "--to",
-                                   "last",   "-o",      "null"};
+const Arguments kRenderForTerminal{"render", "article", "--size", "640x360",
+                                   "--to",   "last",    "-o",     "null"};
 
 TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
   const CommandResult result = at_terminal(kRenderForTerminal);

@@ -96,8 +96,10 @@ const std::vector<VectorCase> kKinds{
       kAllOverlays, "--title", "Où se cache π ?", "--caption", "Zwei Blöcke zählen", "--logo",
       "logo.png"}},
     {"diagrams_of_gaps",
-     {"--at", "3.7", "--size", "640x480", "--shutter", "0", "--panels", "position,unfolded,mirrors"}},
-    {"diagrams_of_runs", {"--at", "3.7", "--size", "640x480", "--shutter", "0", "--panels", "time,count,velocity"}},
+     {"--at", "3.7", "--size", "640x480", "--shutter", "0", "--panels",
+      "position,unfolded,mirrors"}},
+    {"diagrams_of_runs",
+     {"--at", "3.7", "--size", "640x480", "--shutter", "0", "--panels", "time,count,velocity"}},
     {"ellipse", {"--digits", "2", "--at", "4", "--size", "480x360", "--panels", "ellipse"}},
     {"bars", {"--at", "3.7", "--size", "480x360", "--shutter", "0", "--panels", "conservation"}},
     {"certainty", {"--at", "3.7", "--size", "480x360", "--shutter", "0", "--panels", "certainty"}},
@@ -119,9 +121,10 @@ TEST_P(VectorSheets, LookLikeThePixels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, VectorSheets,
-                         testing::Values(VectorCase{"full",
-                                                    {"--theme", "article", "--show", kAllOverlays, "--panels",
-                                                     "velocity,unfolded", "--title", "Two"}}),
+                         testing::Values(VectorCase{
+                             "full",
+                             {"--theme", "article", "--show", kAllOverlays, "--panels",
+                              "velocity,unfolded", "--title", "Two"}}),
                          case_name);
 
 // ---- Every theme and every scene with bodies: the label "long"

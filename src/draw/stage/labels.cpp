@@ -59,8 +59,8 @@ class BlockTexts {
   const std::string& text(std::size_t body) const { return texts_[body].text; }
   bool is_mass(std::size_t body) const { return texts_[body].is_mass; }
   bool fits(std::size_t body) const { return fits(text(body), body); }
-  /// On the block; or above it, if it is heavier than its neighbours and none of them would run into
-  /// the label.
+  /// On the block; or above it, if it is heavier than its neighbours and none of them would run
+  /// into the label.
   bool has_place(std::size_t body) const { return has_place(text(body), body); }
   /// Below the floor, if it has a label without a place on the block or above it.
   bool is_below(std::size_t body) const { return !text(body).empty() && !has_place(body); }
@@ -223,8 +223,8 @@ void check_room(const DrawingContext& context, const BlockTexts& texts, std::siz
   if (texts.is_below(body)) {
     // Below two blocks that meet, labels might meet too; and a scale may be there.
     const bool is_alone = labelled_below(context, context.layout).size() == 1;
-    const bool is_wide =
-        context.font.width_em(texts.text(body)) * context.sizes.mass > text_columns(context).width();
+    const bool is_wide = context.font.width_em(texts.text(body)) * context.sizes.mass >
+                         text_columns(context).width();
     const bool has_room =
         context.layout.below_px + kRounded_px >= label_room_below_px(context.sizes);
     if (is_alone && !is_wide && has_room && !context.scene.show.has(Overlay::ruler)) return;
