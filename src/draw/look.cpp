@@ -148,12 +148,12 @@ constexpr double kTextContrast = 4.5;
 constexpr double kLineContrast = 3;
 constexpr double kFillContrast = 2;
 
-/// Of each sample.
-constexpr std::array<double, 256> kLight = [] {
+constexpr std::array<double, 256> light_of_samples() {
   std::array<double, 256> light{};
   for (std::size_t i = 0; i < light.size(); ++i) light[i] = light_of(double(i) / 255);
   return light;
-}();
+}
+constexpr std::array<double, 256> kLight = light_of_samples();
 
 /// WCAG 2.1, "relative luminance".
 double luminance(const Color& color) {
@@ -282,6 +282,7 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
 /// Of each body, the place of its colour among blue, red and further ones. See colors_of().
 std::vector<std::size_t> color_places(const std::vector<Body>& bodies) {
   std::vector<Rational> masses;  // each once, from the lightest
+  masses.reserve(bodies.size());
   for (const Body& body : bodies) masses.push_back(body.mass.value_or(0));
   std::ranges::sort(masses);
   masses.erase(std::unique(masses.begin(), masses.end()), masses.end());

@@ -97,7 +97,7 @@ class Painter {
   void paint_item(cairo_t& cr, const DrawItem& item, const PixelRect& area);
   void paint(cairo_t& cr, const TextItem& item);
   void paint(cairo_t& cr, const DiscItem& item);
-  void paint(cairo_t& cr, const GlowItem& item);
+  static void paint(cairo_t& cr, const GlowItem& item);
   void paint(cairo_t& cr, const ImageItem& item);
   void paint(cairo_t& cr, const PlateItem& item);
   void paint(cairo_t& cr, const GroupItem& item, const PixelRect& area);

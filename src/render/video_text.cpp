@@ -144,7 +144,8 @@ std::optional<Proof> diagram_proof(const ShownRun& run) {
     }
     if (panel == Panel::unfolded || panel == Panel::mirrors) {
       const std::string angles = with_thousands_separators(run.at_end);
-      return Proof{angles + " equal angles θ fit into half a turn: " + number, number};
+      return Proof{fmt::format("{} equal angles θ fit into half a turn: {}", angles, number),
+                   number};
     }
   }
   return std::nullopt;
@@ -173,6 +174,7 @@ std::string names_of(const Part& part, std::string_view between) {
 /// The lines of a card.
 std::string words_of(const std::vector<std::string>& lines, std::string_view between) {
   std::vector<std::string> words;
+  words.reserve(lines.size());
   for (const std::string& line : lines) words.push_back(with_single_blanks(line));
   std::erase(words, "");
   return fmt::format("{}", fmt::join(words, between));
@@ -234,9 +236,9 @@ std::string describe_briefly(const ShownRun& run) {
 
 /// Frames that it takes to read a text, at least a second of them.
 Rational reading_frames(std::string_view text, const Rational& frame_rate) {
-  constexpr int kRead_per_s = 20;
+  constexpr int kReadPerSecond = 20;
   const auto is_first_byte = [](char byte) { return (byte & 0xC0) != 0x80; };
-  const Rational length_s = Rational(std::ranges::count_if(text, is_first_byte)) / kRead_per_s;
+  const Rational length_s = Rational(std::ranges::count_if(text, is_first_byte)) / kReadPerSecond;
   return std::max<Rational>(1, length_s) * frame_rate;
 }
 
@@ -253,8 +255,11 @@ Integer milestone_of(const Integer& count) {
 /// What a run counts, and how its captions say so.
 class CountWords {
  public:
-  CountWords(const ShownRun& run, const Integer& least, const Rational& frame_rate)
-      : least_(least), most_(run.at_end), frame_rate_(frame_rate), ends_(ends_of(run)) {}
+  CountWords(const ShownRun& run, Integer least, Rational frame_rate)
+      : least_(std::move(least)),
+        most_(run.at_end),
+        frame_rate_(std::move(frame_rate)),
+        ends_(ends_of(run)) {}
 
   /// @param frames  for which the count stays
   std::string text(const Integer& count, std::int64_t frames) {
@@ -313,7 +318,7 @@ Cues cues_of_run(const Part& part, const Rational& frame_rate) {
         std::find_if(begin, counts.end(), [&](const Integer& n) { return n != *begin; });
     const std::int64_t frame = begin - counts.begin();
     const std::string count = words.text(*begin, end - begin);
-    cues[frame] = frame < title_frames ? title + "\n" + count : count;
+    cues[frame] = frame < title_frames ? fmt::format("{}\n{}", title, count) : count;
     begin = end;
   }
   return cues;

@@ -115,7 +115,8 @@ TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {
          "show.title: 'fi' cannot be read in a frame of 16000x119; leave it out, or make the frame "
          "120 pixels high or more");
   expect("119x16000", {"--title", "fi"}, "make the frame 120 pixels wide or more");
-  expect("64x36", {"--show", "masses"}, "show.overlays: the mass '1' does not fit on its block");
+  expect("64x36", {"--show", "masses,ruler"},
+         "show.overlays: the mass '1 kg' does not fit on its block");
   expect("400x60", {"--panels", "time"}, "show.panels: a diagram does not fit into 400x60");
   expect("40x1000", {"--show", "ruler"}, "show.overlays: the ruler has no room");
 }

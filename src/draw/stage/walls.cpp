@@ -43,7 +43,7 @@ struct WallMap {
 
 PlateItem face_plate(ItemId id, const Point& from, const Point& to, const DrawingContext& context,
                      const Hatch& hatch, double beyond_px = 0) {
-  const double width = hatch.width * context.sizes.short_side;
+  const double width = std::max(context.sizes.wall_line, hatch.width * context.sizes.short_side);
   const WallMap map(from, to);
   return plate_of(id, map.bounds(-1 - beyond_px, map.length + 1 + beyond_px, -1, width + 1),
                   hatched_face(from, to, context, hatch, beyond_px));
@@ -94,13 +94,14 @@ void add_angle(const WallMap& first, const WallMap& second, const DrawingContext
                               false, std::nullopt, Stroke{context.palette.text, sizes.grid_line}});
   const std::string text = fmt::format("{:.3g}°", std::abs(angle) * 180 / std::numbers::pi);
   const double width = context.font.width_em(text) * sizes.text;
-  const double ends[] = {first.length - circle.radius, circle.radius};
-  const bool is_first = first(ends[0], 0).y < second(ends[1], 0).y;
+  const Point end_of_first = first(first.length - circle.radius, 0);
+  const Point end_of_second = second(circle.radius, 0);
+  const bool is_first = end_of_first.y < end_of_second.y;
   const WallMap& upper = is_first ? first : second;
   const double behind = style::kWallWidth * sizes.short_side + kBesideHatch_em * sizes.text +
                         std::abs(upper.along.y) * width / 2 +
                         std::abs(upper.along.x) * sizes.text / 2;
-  const Point centre = upper(is_first ? ends[0] : ends[1], behind);
+  const Point centre = upper(is_first ? first.length - circle.radius : circle.radius, behind);
   items.emplace_back(TextItem{nth(ItemId::wall, items.size()),
                               {centre.x - width / 2, centre.y + kHalfFigure_em * sizes.text},
                               text,
