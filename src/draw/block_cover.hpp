@@ -71,6 +71,7 @@ class BlockCover {
       : block_(block),
         // A shape thinner than its stroke is nothing but stroke.
         line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
+        end_px_(std::max(line_px_, block.corner_px)),
         sums_{0} {
     for (const Dwell& dwell : block.dwells) sums_.push_back(sums_.back() + dwell.share);
   }
@@ -78,6 +79,9 @@ class BlockCover {
   double line_px() const { return line_px_; }
 
   Cover of_row(int y) const {
+    const Rect& bounds = block_.bounds;
+    const bool is_inside = bounds.y + end_px_ <= y && y + 1 <= bounds.bottom() - end_px_;
+    if (is_inside && block_.bars.empty()) return kInside;
     Cover cover = cover_of(y, block_.bounds.y, block_.bounds.height, line_px_);
     // Each bar covers a part of what the ones before left uncovered.
     for (const Bar& bar : block_.bars) {
@@ -116,6 +120,9 @@ class BlockCover {
     if (block_.is_still()) {
       const Cover still = of_column(column, block_.bounds.x, inset);
       if (still.outer > 0) shares_.push_back({still, 1});
+    } else if (block_.dwells.back().x + end_px_ <= column &&
+               column + 1 <= block_.dwells.front().x + block_.bounds.width - end_px_) {
+      shares_.push_back({kInside, sums_.back()});
     } else if (block_.dwells.back().x >= column - block_.bounds.width &&
                block_.dwells.front().x < column + 1) {
       each_part(column, inset, [&](const Part& part) { add_dwells(column, inset, part); });
@@ -124,6 +131,7 @@ class BlockCover {
   }
 
  private:
+  static constexpr Cover kInside{.outer = 1, .inner = 1};
   /// Places of the left edge, [from, to).
   struct Part {
     double from = 0;
@@ -178,6 +186,7 @@ class BlockCover {
 
   const ExposedBlock& block_;
   double line_px_;
+  double end_px_;             ///< what is not inside, at each end
   std::vector<double> sums_;  // of the shares before each dwell
   std::vector<CoverShare> shares_;
 };

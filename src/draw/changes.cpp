@@ -60,6 +60,17 @@ std::size_t common_prefix(std::string_view a, std::string_view b) {
   return length;
 }
 
+/// A picture that is partly faded into its own background.
+const GroupItem* as_faded(const DrawList& list) {
+  if (list.items.size() != 1) return nullptr;
+  const auto* const group = std::get_if<GroupItem>(&list.items.front());
+  const bool is_faded = group != nullptr && list.background &&
+                        group->list->background == list.background &&
+                        group->list->width_px == list.width_px &&
+                        group->bounds == Rect{0, 0, double(list.width_px), double(list.height_px)};
+  return is_faded ? group : nullptr;
+}
+
 /// Collects what differs, cut to whole pixels of the frame.
 class Comparison {
  public:
@@ -67,8 +78,17 @@ class Comparison {
       : frame_{0, 0, list.width_px, list.height_px}, width_em_(width_em) {}
 
   void compare(const DrawList& before, const DrawList& after) {
+    const GroupItem* const faded_before = as_faded(before);
+    const GroupItem* const faded_after = as_faded(after);
     const bool alike = before.width_px == after.width_px && before.height_px == after.height_px &&
                        before.background == after.background;
+    if (alike && faded_before != nullptr && faded_after != nullptr &&
+        faded_before->opacity != faded_after->opacity) {
+      // Background over background is the background, however much of it there is.
+      for (const DrawItem& item : faded_before->list->items) add(item);
+      for (const DrawItem& item : faded_after->list->items) add(item);
+      return;
+    }
     if (alike && std::ranges::equal(before.items, after.items, {}, id_of, id_of)) {
       for (std::size_t i = 0; i < after.items.size(); ++i) compare(before.items[i], after.items[i]);
       return;

@@ -48,6 +48,7 @@ struct FrameState {
   State state;
   Rational time = 0;      ///< simulation time of the state
   Rational slowdown = 1;  ///< as in Stretch
+  double pace = 0;        ///< simulation time per second of video, unless that stands still
   /// Where the bodies are while the frame is exposed; if empty, at the instant.
   std::vector<WeightedExposure> exposure = {};
   Gaps gaps = {};  ///< of two blocks beside a wall; filled in if FrameNeeds asks for them
@@ -55,8 +56,9 @@ struct FrameState {
   std::vector<std::vector<PathPoint>> trails = {};
 
   /// What another moment of the video is drawn from, so many seconds from this one; the first or
-  /// the last if the video ends before. Only state, time and gaps are filled in. Empty for a still
-  /// outside of its video, or unless FrameNeeds asks for it. Valid as long as log and video are.
+  /// the last if the video ends before. It has the time and the state; with FrameNeeds::gaps, only
+  /// the bound of y2 in place of the state. Empty for a still outside of its video, or unless
+  /// FrameNeeds asks for it. Valid as long as log and video are.
   std::function<FrameState(double from_now_s)> moment = {};
 
   // Not filled in for a still outside of its video, or if no drawable reads them.

@@ -219,10 +219,8 @@ std::optional<PositionBounds> UnfoldedLog::bounds_at(const Rational& time) const
 
 Gaps UnfoldedLog::gaps_at(const Rational& time) const {
   const LinePoint point = point_at(time);
-  const Rational free_y1 = exact_.y1 + exact_.u1 * time;
-  const Rational free_y2 = exact_.y2 + exact_.u2 * time;
   if (exact_.count_from_ray(phase_of(point, time).ray) == 0) {
-    return {to_double(free_y1), to_double(free_y2)};
+    return {to_double(exact_.y1 + exact_.u1 * time), to_double(exact_.y2 + exact_.u2 * time)};
   }
   // The phase in doubles would lose what is small beside the angle to its landmark.
   double phase = 0;
@@ -233,12 +231,18 @@ Gaps UnfoldedLog::gaps_at(const Rational& time) const {
     phase = is_odd(ray) ? (1 - beyond.hi) - beyond.lo : beyond.hi;
   }
   const double angle = phase * form_.theta.hi;
-  const double distance = rounded::hypot(form_.sigma * to_double(free_y1), to_double(free_y2));
+  const double distance = y2_bound_at(time);
   // sin(angle)/sigma, which does not lose a small angle among the denormal numbers.
   const auto [sine, cosine] = rounded::sin_cos(angle);
   const double sine_share = angle < 0x1p-30 ? 1 : sine / angle;
   const double y2 = distance * cosine;
   return {std::min(distance * phase * (form_.theta.hi / form_.sigma) * sine_share, y2), y2};
+}
+
+double UnfoldedLog::y2_bound_at(const Rational& time) const {
+  const Rational free_y1 = exact_.y1 + exact_.u1 * time;
+  const Rational free_y2 = exact_.y2 + exact_.u2 * time;
+  return rounded::hypot(form_.sigma * to_double(free_y1), to_double(free_y2));
 }
 
 Gaps UnfoldedLog::gaps_at_collision(const Integer& index) const {

@@ -25,6 +25,7 @@ class UnfoldedLog final : public PairLog {
   std::unique_ptr<PairStream> stream(const Integer& first, const Integer& last) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
   Gaps gaps_at(const Rational& time) const override;
+  double y2_bound_at(const Rational& time) const override;
   Gaps gaps_at_collision(const Integer& index) const override;
 
   std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -40,8 +41,9 @@ struct Chunks {
 };
 
 /// Runs `count` tasks on `workers` threads; one by one, when their results are taken, where there
-/// are no threads. At most 2 * workers tasks are begun beyond the last
-/// one whose result was taken, which bounds the memory that results hold.
+/// are no threads. At most 2 * workers tasks are begun beyond the last one whose result was taken,
+/// which bounds the memory that results hold; 16 * workers while those that wait hold little, so
+/// that a task that takes long keeps no thread waiting.
 template <typename Result>
 class OrderedPool {
  public:
@@ -49,9 +51,12 @@ class OrderedPool {
   /// so that a worker can own what it works with.
   using Task = std::function<Result(std::int64_t, const std::stop_token&)>;
   using MakeTask = std::function<Task()>;
+  /// The memory that a result holds, in bytes.
+  using Weigh = std::function<std::size_t(const Result&)>;
+  static constexpr std::size_t kLittle = std::size_t{32} << 20;
 
-  OrderedPool(std::int64_t count, int workers, const MakeTask& make_task)
-      : count_(count), window_(2 * std::int64_t{workers}) {
+  OrderedPool(std::int64_t count, int workers, const MakeTask& make_task, Weigh weigh)
+      : count_(count), workers_(workers), weigh_(std::move(weigh)) {
     if constexpr (!kHasThreads) {
       if (count > 0) task_ = make_task();
       return;
@@ -89,6 +94,7 @@ class OrderedPool {
     if (failure_ != nullptr) std::rethrow_exception(failure_);
     auto node = results_.extract(next_to_take_);
     ++next_to_take_;
+    held_ -= weigh_(node.mapped());
     lock.unlock();
     changed_.notify_all();
     // cppcheck-suppress returnStdMoveLocal ; a reference into the node, not a local object
@@ -109,6 +115,7 @@ class OrderedPool {
       while (const auto index = begin_task(stop)) {
         Result result = task(*index, stop);
         const std::lock_guard lock(mutex_);
+        held_ += weigh_(result);
         results_.emplace(*index, std::move(result));
         changed_.notify_all();
       }
@@ -123,17 +130,19 @@ class OrderedPool {
     std::unique_lock lock(mutex_);
     const bool room = changed_.wait(lock, stop, [this] {
       return failure_ != nullptr || next_to_begin_ == count_ ||
-             next_to_begin_ < next_to_take_ + window_;
+             next_to_begin_ < next_to_take_ + (held_ <= kLittle ? 16 : 2) * workers_;
     });
     if (!room || failure_ != nullptr || next_to_begin_ == count_) return std::nullopt;
     return next_to_begin_++;
   }
 
   const std::int64_t count_;
-  const std::int64_t window_;
+  const std::int64_t workers_;
+  const Weigh weigh_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::map<std::int64_t, Result> results_;
+  std::size_t held_ = 0;  ///< bytes of results_
   std::int64_t next_to_begin_ = 0;
   std::int64_t next_to_take_ = 0;
   std::exception_ptr failure_;

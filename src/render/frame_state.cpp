@@ -197,8 +197,10 @@ FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds&
                        const Rational& speed, const std::optional<VideoTime>& video_time) {
   constexpr std::size_t kMostCorners = 100;
   constexpr std::size_t kAllCorners = std::numeric_limits<std::size_t>::max();
-  FrameState state{
-      .state = log.state_at(shown.time), .time = shown.time, .slowdown = shown.slowdown};
+  FrameState state{.state = log.state_at(shown.time),
+                   .time = shown.time,
+                   .slowdown = shown.slowdown,
+                   .pace = to_double(speed / shown.slowdown)};
   for (const TimeSlice& slice : shown.exposure) {
     state.exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
   }
@@ -215,10 +217,16 @@ FrameState frame_state(const Log& log, const FrameTime& shown, const FrameNeeds&
   if (video_time) state.video_s = to_double(video_time->video_s);
   if (video_time && needs.hits) add_hits(state, log, *video_time);
   if (video_time && needs.moments) {
-    state.moment = [&log, gaps = needs.gaps, speed, schedule = &video_time->schedule,
+    state.moment = [&log, gaps = needs.gaps, schedule = &video_time->schedule,
                     now_s = video_time->video_s](double from_now_s) {
-      const Rational video_s = schedule->within(now_s + Rational(from_now_s));
-      return frame_state(log, schedule->at(video_s), {.gaps = gaps}, speed);
+      FrameState moment;
+      moment.time = schedule->at(schedule->within(now_s + Rational(from_now_s))).time;
+      if (gaps) {
+        moment.gaps.y2 = log.pair()->y2_bound_at(moment.time);
+      } else {
+        moment.state = log.state_at(moment.time);
+      }
+      return moment;
     };
   }
   return state;

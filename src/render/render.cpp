@@ -47,6 +47,12 @@ struct EncodedWork {
   StepSeconds spent{};
 };
 
+std::size_t size_of(const EncodedWork& work) {
+  std::size_t size = 0;
+  for (const Packet& packet : work.chunk) size += packet.bytes.size();
+  return size;
+}
+
 /// What one thread works with, chunk after chunk.
 class Worker {
  public:
@@ -217,7 +223,7 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
     sound = sound_of(plan, on_progress, clock, stop);
     sink->take_sound(*sound.packets);
   }
-  OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker);
+  OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker, size_of);
   while (const auto work = pool.take(stop, report)) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);

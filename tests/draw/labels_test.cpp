@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "draw/composed_pictures.hpp"
+#include "draw/lecture_frames.hpp"
 #include "draw/look.hpp"
 
 namespace piblocks {
@@ -74,6 +75,30 @@ void expect_mass_of(const DrawList& list, ItemId thing, std::size_t n, const Fon
   const bool is_beside = text.right() <= place.x || text.x >= place.right();
   const bool is_below = text.y > place.bottom();
   EXPECT_TRUE(is_on || is_above || is_beside || is_below) << text.x << " on " << place.x;
+}
+
+/// What runs fast is at even pixels, where encoders find its colours again; else at whole ones.
+TEST(Labels, FastOnesAreAtEvenPixels) {
+  const auto odd_places = [](const char* speed, const char* velocity) {
+    const Frames frames({{"digits", "2"},
+                         {"show.overlays", "masses"},
+                         {"view.theme", "lecture"},
+                         {"view.size", "1280x720"},
+                         {"time.speed", speed},
+                         {"red.velocity", velocity}});
+    int odd = 0;
+    for (int i = 0; i < 40; ++i) {
+      const DrawList frame = frames.at(Rational(i) / 60);
+      const double x = items_of<TextItem>(frame.items, ItemId::masses).front().origin.x;
+      EXPECT_EQ(x, std::round(x));
+      odd += std::fmod(x, 2) != 0 ? 1 : 0;
+    }
+    return odd;
+  };
+  // Some 130 pixels a unit and 60 frames a second.
+  EXPECT_EQ(odd_places("1", "-1"), 0);
+  EXPECT_GT(odd_places("1/4", "-1"), 10);
+  EXPECT_EQ(odd_places("1/4", "-4"), 0);
 }
 
 TEST(Labels, AMassStaysWhileItsBlockIsInSight) {

@@ -24,14 +24,14 @@ class Frames {
   Rational turn() const { return turn_of(*two_blocks_of(scene_.system)).value(); }
 
   FrameState state(const FrameTime& shown) const {
-    return frame_state(*log_, shown, composition_.needs(), 1);
+    return frame_state(*log_, shown, composition_.needs(), scene_.time.speed);
   }
   DrawList at(const Rational& time) const { return composition_.frame(state({time})); }
   DrawList of(const FrameState& state) const { return composition_.frame(state); }
   /// A frame of the film, with its hits.
   FrameState film_state(const Schedule& schedule, std::int64_t number) const {
     const Rational video_s = Rational(number) / scene_.view.frame_rate;
-    return frame_state(*log_, schedule.at(video_s), composition_.needs(), 1,
+    return frame_state(*log_, schedule.at(video_s), composition_.needs(), scene_.time.speed,
                        VideoTime{schedule, video_s});
   }
 

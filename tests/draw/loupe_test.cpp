@@ -161,6 +161,25 @@ TEST(Loupe, FadesWithTheGap) {
   EXPECT_TRUE(was_half_seen);
 }
 
+/// Lines beside the blocks begin where red hides them, and stay while it moves.
+TEST(Loupe, ItsLinesStay) {
+  const Frames frames(lecture(3));
+  std::set<double> begins;
+  for (Rational time = frames.turn() - Rational(1, 2); time < frames.turn() + Rational(1, 2);
+       time += Rational(1, 60)) {
+    const DrawList frame = frames.at(time);
+    if (!loupe_in(frame)) continue;
+    const Rect red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+    for (const PathItem& line : items_of<PathItem>(frame.items, ItemId::wall)) {
+      const double begin = line.points.view()[0].x;
+      begins.insert(begin);
+      EXPECT_GT(begin, red.x);
+      EXPECT_LE(begin, std::ceil(red.right()));
+    }
+  }
+  EXPECT_EQ(begins.size(), 1U);
+}
+
 TEST(Loupe, IsOnlyWhereItIsAskedFor) {
   const Settings dark = {{"digits", "3"}, {"view.theme", "dark"}};
   const Frames plain(dark);

@@ -8,6 +8,7 @@
 
 #include "draw/canvas.hpp"
 #include "draw/composed_pictures.hpp"
+#include "draw/montage.hpp"
 #include "draw/random_items.hpp"
 #include "support/traced_random.hpp"
 
@@ -269,6 +270,25 @@ TEST(Region, OfAFadeIsTheFrameOnce) {
   Canvas canvas(40, 30);
   expect_update(canvas, list(0.25));
   EXPECT_EQ(area(canvas.update(list(0.5))), 40 * 30);
+}
+
+/// Of a picture that fades into its own background only what is on it changes.
+TEST(Region, OfAFadeIntoTheBackgroundIsWhatIsOnIt) {
+  for (const Color& ground : {kWhite, kGreen, Color{1, 2, 3}}) {
+    const auto list = [&](double opacity) {
+      DrawList picture{40, 30, ground, {}};
+      picture.items.emplace_back(
+          RectangleItem{ItemId::red_block, {10 * opacity, 1, 5, 5}, kBlack, std::nullopt});
+      return faded(std::move(picture), opacity);
+    };
+    Canvas canvas(40, 30);
+    expect_update(canvas, list(0.01));
+    for (int i = 2; i < 100; ++i) {
+      expect_update(canvas, list(i / 100.0));
+      ASSERT_FALSE(HasFailure()) << i;
+    }
+    EXPECT_LE(area(canvas.update(list(0.5))), 2 * 6 * 7);
+  }
 }
 
 TEST(Region, OfACounterStartsAtTheFirstNewDigit) {

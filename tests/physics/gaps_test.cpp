@@ -45,7 +45,14 @@ void expect_close(const Gaps& given, const ExactGaps& wanted) {
 void expect_gaps(const TwoBlocks& system, const PairLog& log, const Rational& time) {
   SCOPED_TRACE("t = " + time.get_str());
   const auto state = oracle::high_precision_state(system, time, kExtraBits);
-  expect_close(log.gaps_at(time), gaps_of(system, state.blue.position, state.red.position));
+  const ExactGaps exact = gaps_of(system, state.blue.position, state.red.position);
+  expect_close(log.gaps_at(time), exact);
+  const double bound = log.y2_bound_at(time);
+  EXPECT_GE(bound, to_double(exact.y2) * (1 - kBound));
+  const double most = std::sqrt(1 + to_double(system.blue.mass / system.red.mass));  // 1 / cos θ
+  if (is_elastic(system) && log.count_at(time) > 0) {
+    EXPECT_LE(bound, to_double(exact.y2) * most * (1 + kBound));
+  }
 }
 
 void expect_gaps_at_collision(const TwoBlocks& system, const PairLog& log, const Integer& index) {

@@ -11,6 +11,9 @@ namespace {
 
 using Pool = OrderedPool<std::int64_t>;
 
+std::size_t nothing(std::int64_t /*result*/) { return 0; }
+std::size_t much(std::int64_t /*result*/) { return Pool::kLittle + 1; }
+
 Pool::Task square(std::atomic<std::int64_t>* begun = nullptr) {
   return [begun](std::int64_t n, const std::stop_token&) {
     if (begun != nullptr) ++*begun;
@@ -21,46 +24,71 @@ Pool::Task square(std::atomic<std::int64_t>* begun = nullptr) {
 
 TEST(OrderedPool, HandsOnEveryResultInOrder) {
   for (const int workers : {1, 2, 3, 7, 50}) {
-    Pool pool(40, workers, [] { return square(); });
+    Pool pool(
+        40, workers, [] { return square(); }, nothing);
     for (std::int64_t n = 0; n < 40; ++n) EXPECT_EQ(pool.take({}), n * n);
     EXPECT_EQ(pool.take({}), std::nullopt);
   }
 }
 
 TEST(OrderedPool, HasNothingToDoForNothing) {
-  Pool pool(0, 2, [] { return square(); });
+  Pool pool(
+      0, 2, [] { return square(); }, nothing);
   EXPECT_EQ(pool.take({}), std::nullopt);
 }
 
 TEST(OrderedPool, BoundsWhatWaits) {
-  std::atomic<std::int64_t> begun = 0;
-  Pool pool(1000, 3, [&] { return square(&begun); });
-  for (int n = 0; n < 50; ++n) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    EXPECT_LE(begun, n + 2 * 3);
-    pool.take({});
+  // One result that holds much may be there when six tasks have begun, and more when sixteen.
+  for (const auto& [weigh, most] : {std::pair{&much, 2 * 3}, std::pair{&nothing, 16 * 3}}) {
+    std::atomic<std::int64_t> begun = 0;
+    Pool pool(
+        1000, 3, [&] { return square(&begun); }, weigh);
+    for (int n = 0; n < 50; ++n) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      EXPECT_LE(begun, n + most);
+      pool.take({});
+    }
   }
+}
+
+TEST(OrderedPool, GoesOnWhileOneTaskTakesLong) {
+  std::atomic<std::int64_t> done = 0;
+  const auto make_task = [&] {
+    return [&](std::int64_t n, const std::stop_token& halt) {
+      while (n == 0 && done < 31 && !halt.stop_requested()) std::this_thread::yield();
+      ++done;
+      return n;
+    };
+  };
+  Pool pool(100, 2, make_task, nothing);
+  EXPECT_EQ(pool.take({}), 0);
 }
 
 TEST(OrderedPool, CallsWhileItWaits) {
   std::atomic<int> calls = 0;
-  Pool pool(1, 1, [&] {
-    return [&](std::int64_t n, const std::stop_token& halt) {
-      while (calls < 3 && !halt.stop_requested()) std::this_thread::yield();
-      return n;
-    };
-  });
+  Pool pool(
+      1, 1,
+      [&] {
+        return [&](std::int64_t n, const std::stop_token& halt) {
+          while (calls < 3 && !halt.stop_requested()) std::this_thread::yield();
+          return n;
+        };
+      },
+      nothing);
   EXPECT_EQ(pool.take({}, [&] { ++calls; }), 0);
   EXPECT_GE(calls, 3);
 }
 
 TEST(OrderedPool, RethrowsTheFirstFailureAndStops) {
-  Pool pool(1000, 2, [] {
-    return [](std::int64_t n, const std::stop_token&) -> std::int64_t {
-      if (n == 5) throw MediaError("five");
-      return n;
-    };
-  });
+  Pool pool(
+      1000, 2,
+      [] {
+        return [](std::int64_t n, const std::stop_token&) -> std::int64_t {
+          if (n == 5) throw MediaError("five");
+          return n;
+        };
+      },
+      nothing);
   EXPECT_THROW(
       {
         while (pool.take({})) {
@@ -70,18 +98,22 @@ TEST(OrderedPool, RethrowsTheFirstFailureAndStops) {
 }
 
 TEST(OrderedPool, RethrowsWhatMakingAWorkerThrows) {
-  Pool pool(10, 2, []() -> Pool::Task { throw DrawError("no canvas"); });
+  Pool pool(
+      10, 2, []() -> Pool::Task { throw DrawError("no canvas"); }, nothing);
   EXPECT_THROW(pool.take({}), DrawError);
 }
 
 TEST(OrderedPool, StopsWhenAsked) {
   std::stop_source stop;
-  Pool pool(10, 1, [] {
-    return [](std::int64_t n, const std::stop_token& halt) {
-      while (!halt.stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      return n;
-    };
-  });
+  Pool pool(
+      10, 1,
+      [] {
+        return [](std::int64_t n, const std::stop_token& halt) {
+          while (!halt.stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          return n;
+        };
+      },
+      nothing);
   stop.request_stop();
   EXPECT_EQ(pool.take(stop.get_token()), std::nullopt);
 }

@@ -44,6 +44,8 @@ class LoupeInset {
   static constexpr std::size_t kCut = 100;
   static constexpr std::size_t kSweep = 100;
 
+  /// In the frame, not enlarged.
+  double gap_px(const FrameState& shown) const;
   /// How many times the gap of a state could be enlarged.
   double room_of(const FrameState& state) const;
   /// The place of the zoom among zooms_, or between two of them.

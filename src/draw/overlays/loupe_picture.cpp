@@ -28,10 +28,13 @@ constexpr double kFastBlock = 0.35;  ///< alpha of the block then
 
 }  // namespace
 
+double LoupeInset::gap_px(const FrameState& shown) const {
+  return gap_.gaps_in(shown, stage_).y2 * stage_.scale;
+}
+
 double LoupeInset::opacity(const FrameState& shown) const {
   const double from_px = style::kMaxLoupeGap * sizes_.short_side;
-  const double gap_px = gap_.gaps_in(shown, stage_).y2 * stage_.scale;
-  double opacity = (from_px - gap_px) / (from_px * (1 - loupe_style::kFullyShown));
+  double opacity = (from_px - gap_px(shown)) / (from_px * (1 - loupe_style::kFullyShown));
   if (gap_.window) {
     const Rational way = (shown.time - gap_.window->from) / (gap_.window->to - gap_.window->from);
     const double from_end = to_double(std::min<Rational>(way, 1 - way));
@@ -40,9 +43,7 @@ double LoupeInset::opacity(const FrameState& shown) const {
   return std::clamp(opacity, 0.0, 1.0);
 }
 
-double LoupeInset::room_of(const FrameState& state) const {
-  return room_px_ / (gap_.gaps_in(state, stage_).y2 * stage_.scale);
-}
+double LoupeInset::room_of(const FrameState& state) const { return room_px_ / gap_px(state); }
 
 double LoupeInset::level(const FrameState& shown) const {
   const auto level_of = [&](const FrameState& state) {
@@ -50,9 +51,7 @@ double LoupeInset::level(const FrameState& shown) const {
     return static_cast<int>(std::max<std::ptrdiff_t>(1, above - zooms_.begin())) - 1;
   };
   if (!shown.moment) return level_of(shown);
-  return eased_level([&](double from_now_s) {
-    return level_of(from_now_s == 0 ? shown : shown.moment(from_now_s));
-  });
+  return eased_level([&](double from_now_s) { return level_of(shown.moment(from_now_s)); });
 }
 
 /// Below the first level the gap fills the inset, which shows more than no zoom would.
@@ -64,12 +63,14 @@ double LoupeInset::zoom_at(double level, const FrameState& shown) const {
   return zooms_[below] * straight_exp2((level - double(below)) * straight_log2(ratio));
 }
 
-/// They begin behind the outer block, or above it: between the blocks they would be in the way.
+/// They begin above the outer block; or behind it, where its far side is when the gap is closed, so
+/// that they stay while it moves. Between the blocks they would be in the way.
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
   const Rect outer = stage_.at(gap_.outer, shown);
-  const double inside = kLinesInOuter * outer.width;
+  const bool is_above = lines_y_ <= outer.y;
+  const double inside = is_above ? kLinesInOuter * outer.width : outer.width - gap_px(shown);
   // By whole pixels, they stay as they are while the block hardly moves.
   const Point from{std::round(gap_.side > 0 ? outer.x + inside : outer.right() - inside), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};

@@ -137,7 +137,8 @@ class LabelRoom {
   explicit LabelRoom(const DrawingContext& context)
       : layout_(context.layout),
         columns_(text_columns(context)),
-        pad_(kBelowLabel * context.sizes.short_side) {}
+        pad_(kBelowLabel * context.sizes.short_side),
+        frame_px_(context.layout.scale / to_double(context.scene.view.frame_rate)) {}
 
   void add(Label label, const FrameState& shown, std::vector<DrawItem>& items) const {
     const Rect block = layout_.at(label.body, shown);
@@ -153,9 +154,12 @@ class LabelRoom {
       const double most = std::min(columns_.right, block.right() - pad) - half;
       middle = least <= most ? std::clamp(middle, least, most) : leave(label, block, shown);
     }
-    // By whole pixels, its figures keep their distances, and encoders find it again.
+    // By whole pixels, its figures keep their distances, and encoders find it again: of what runs
+    // fast also its colours, which have half as many samples.
+    const double px_per_frame = shown.state.bodies[label.body].velocity[0] * shown.pace * frame_px_;
+    const int step = std::fabs(px_per_frame) < 1 ? 1 : 2;
     double& x = label.text.origin.x;
-    x = std::min(std::max(std::round(x + middle), std::ceil(columns_.left)),
+    x = std::min(std::max(step * std::round((x + middle) / step), std::ceil(columns_.left)),
                  std::floor(columns_.right - 2 * half));
     items.emplace_back(std::move(label.text));
   }
@@ -185,6 +189,7 @@ class LabelRoom {
   // Where labels above or beside their blocks stay.
   Columns columns_;
   double pad_;
+  double frame_px_;  ///< way in a frame at a velocity of 1 and the pace of 1
 };
 
 /// The blocks whose labels do not fit on them.
