@@ -333,6 +333,24 @@ TEST(VelocityPanel, SaysInTheEndHowManyArcsAreInTheCircle) {
       << "π/θ is 4, and there are 3 hits";
 }
 
+/// Once, beside the circle or below the mirrors; on an ellipse no arc is 2 theta.
+TEST(VelocityPanel, SaysWhatThetaIs) {
+  const auto times_said = [](const char* panels, double video_s, const char* ratio = "100") {
+    const VelocityPictures pictures({{"mass-ratio", ratio}, {"view.size", "1280x720"}}, panels);
+    const std::string words = Shown(pictures.after(3, video_s)).words();
+    int times = 0;
+    for (auto at = words.find("arctan"); at != std::string::npos; at = words.find("arctan", at + 1))
+      ++times;
+    return times;
+  };
+  EXPECT_EQ(times_said("velocity", 0), 1);
+  EXPECT_EQ(times_said("ellipse", 0), 0);
+  EXPECT_EQ(times_said("ellipse", kMorphed_s), 1);
+  EXPECT_EQ(times_said("velocity,unfolded", 0), 1);
+  EXPECT_EQ(times_said("velocity,mirrors", 0), 1);
+  EXPECT_EQ(times_said("velocity", 0, "1"), 0) << "the count is not the whole part of π/θ";
+}
+
 TEST(EllipsePanel, IsTheCircleInTheEnd) {
   const Shown circle(VelocityPictures(Settings{{"digits", "2"}}).after(17));
   const Shown ellipse(VelocityPictures(Settings{{"digits", "2"}}, "ellipse").after(17));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/rounded.hpp"
+#include "draw/panels/unfolded_text.hpp"
 
 namespace piblocks {
 namespace {
@@ -103,7 +104,8 @@ class VelocityLabeller {
  public:
   VelocityLabeller(const DrawingContext& context, const VelocityPlace& place,
                    const VelocityPoints& points)
-      : palette_(context.palette),
+      : context_(context),
+        palette_(context.palette),
         set_(context.setter()),
         inside_(place.inside),
         circle_(place.circle),
@@ -119,6 +121,7 @@ class VelocityLabeller {
     add_energy(is_ellipse_to_scale(system));
     room_ = around_circle;
     add_arc(angles);
+    add_angle();
     return std::move(made_);
   }
 
@@ -209,6 +212,24 @@ class VelocityLabeller {
     }
   }
 
+  /// What θ is, unless another diagram says so.
+  void add_angle() {
+    const std::vector<Panel>& panels = context_.scene.show.panels;
+    const bool is_said = std::ranges::count(panels, Panel::unfolded) > 0 ||
+                         std::ranges::count(panels, Panel::mirrors) > 0;
+    if (is_said || !half_turn_ratio(context_)) return;
+    const Formula note = angle_note(context_);
+    const auto& [centre, radius] = circle_;
+    const Point below{centre.x - note.width_em() * em_ / 2, centre.y + radius + kWordsStep * em_};
+    for (const Point& at :
+         {Point{beside_circle(), std::min(centre.y + kWordsBelow * radius, bottom())}, below,
+          Point{at_right(note), bottom()}}) {
+      if (!room_.is_free(note, at)) continue;
+      made_.labels.push_back({note, at, palette_.muted, VelocityPart::circle});
+      return;
+    }
+  }
+
   /// Why it is an ellipse.
   void add_energy(bool is_to_scale) {
     const auto label = [](Formula formula, const Color& color) {
@@ -251,6 +272,7 @@ class VelocityLabeller {
     return std::nullopt;
   }
 
+  const DrawingContext& context_;
   const Palette& palette_;
   FormulaSetter set_;
   Rect inside_;
