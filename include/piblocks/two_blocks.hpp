@@ -157,8 +157,8 @@ class PairLog : public Log {
   /// 1e-290. For an engine that steps they are differences of positions, with the error of these.
   /// @throws SimulationError as blocks_at().
   virtual Gaps gaps_at(const Rational& time) const;
-  /// Not below y2 of gaps_at(time), and quick to compute. For elastic blocks it is the distance
-  /// from the corner of the gaps' plane, y2 / cos θ at most.
+  /// An upper bound of y2 of gaps_at(time) that is quick to compute. For elastic blocks it is the
+  /// distance from the corner of the gaps' plane, and at most y2 / cos θ.
   virtual double y2_bound_at(const Rational& time) const { return gaps_at(time).y2; }
   /// The gaps at this collision: y1 is exactly 0 at the wall, and equals y2 exactly if the blocks
   /// meet. @throws SimulationError as blocks_collision().

@@ -173,8 +173,8 @@ Color mixed(const Color& from, const Color& to, double share) {
   return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
 }
 
-/// The first colour on the way from one to another that has the least contrast to the ground; the
-/// other one if none has.
+/// The first colour on the way from `from` to `to` whose contrast to the ground is at least
+/// `least`; `to` if there is none.
 Color readable(const Color& from, const Color& to, const Color& ground, double least) {
   constexpr int kSteps = 50;
   for (int i = 0; i < kSteps; ++i) {
@@ -201,7 +201,7 @@ Color shade_on(const Color& ground, const Color& text) {
 }
 
 /// Whether text can be read, also on filled areas.
-bool is_read(const Color& text, const Color& ground) {
+bool is_readable(const Color& text, const Color& ground) {
   return contrast(text, ground) >= kTextContrast &&
          contrast(text, shade_on(ground, text)) >= kTextContrast;
 }
@@ -218,28 +218,28 @@ Palette adapted(Palette palette, const Colors& own) {
   palette.background = ground;
   if (own.ink) {
     palette.text = palette.wall = color_of(*own.ink);
-  } else if (!is_read(palette.text, ground)) {
+  } else if (!is_readable(palette.text, ground)) {
     palette.text = palette.wall = extreme;
   }
-  const auto seen = [&](const Color& color, double least) {
+  const auto with_contrast = [&](const Color& color, double least) {
     return readable(color, palette.text, ground, least);
   };
-  palette.muted = seen(mixed(palette.text, ground, 0.4), kTextContrast);
-  palette.grid = seen(mixed(palette.text, ground, 0.6), kLineContrast);
+  palette.muted = with_contrast(mixed(palette.text, ground, 0.4), kTextContrast);
+  palette.grid = with_contrast(mixed(palette.text, ground, 0.6), kLineContrast);
   palette.shade = shade_on(ground, palette.text);
-  palette.accent = seen(palette.accent, kTextContrast);
-  palette.done = seen(palette.done, kTextContrast);
+  palette.accent = with_contrast(palette.accent, kTextContrast);
+  palette.done = with_contrast(palette.done, kTextContrast);
   for (BlockColors* block : {&palette.blue, &palette.red}) {
-    block->fill = seen(block->fill, kFillContrast);
-    block->edge = seen(block->edge, kLineContrast);
+    block->fill = with_contrast(block->fill, kFillContrast);
+    block->edge = with_contrast(block->edge, kLineContrast);
     if (block->bars > 0 && contrast(block->edge, block->fill) < kLineContrast) {
       block->edge = palette.text;
     }
     if (contrast(block->text, block->fill) < kTextContrast) {
       block->text = black_or_white_on(block->fill);
     }
-    block->line = seen(block->line, kLineContrast);
-    block->label = seen(block->label, kTextContrast);
+    block->line = with_contrast(block->line, kLineContrast);
+    block->label = with_contrast(block->label, kTextContrast);
   }
   return palette;
 }
@@ -267,14 +267,14 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
   Color edge = mixed(fill, is_dark ? kWhite : kBlack, share);
   if (theme == Theme::print) edge = palette.wall;
   if (is_lecture(theme) || theme == Theme::article) edge = fill;
-  const auto seen = [&](const Color& color, double least) {
+  const auto with_contrast = [&](const Color& color, double least) {
     return readable(color, palette.text, palette.background, least);
   };
   return {fill,
-          seen(edge, kLineContrast),
+          with_contrast(edge, kLineContrast),
           black_or_white_on(fill),
-          seen(fill, kLineContrast),
-          seen(fill, kTextContrast),
+          with_contrast(fill, kLineContrast),
+          with_contrast(fill, kTextContrast),
           0,
           ""};
 }

@@ -97,7 +97,7 @@ template <typename Value>
 Values texts_of(const std::optional<Value>& value) {
   return value ? texts_of(*value) : Values();
 }
-/// A list without overlays is not the theme's.
+/// An empty list is "none". Without a list the theme chooses the overlays.
 Values texts_of(const std::optional<std::vector<Overlay>>& list) {
   return list && list->empty() ? Values{"none"} : texts_of<std::vector<Overlay>>(list);
 }

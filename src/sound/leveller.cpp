@@ -10,7 +10,8 @@ namespace {
 /// Weighted energy of 0.4 s at -16.5 LUFS: 10^((-16.5 + 0.691)/10) in a pair.
 constexpr double kMostEnergy = 0.02625 * 19200;
 
-/// Less in a hop is silence. Tiny numbers would slow processors down.
+/// A hop with less energy counts as silence and resets the filters: tiny numbers would slow
+/// processors down.
 constexpr double kSilence = 1e-20;
 
 }  // namespace

@@ -47,7 +47,7 @@ class LoupeInset {
   /// In the frame, not enlarged.
   double gap_px(const FrameState& shown) const;
   /// How many times the gap of a state could be enlarged.
-  double room_of(const FrameState& state) const;
+  double most_zoom_of(const FrameState& state) const;
   /// The place of the zoom among zooms_, or between two of them.
   double level(const FrameState& shown) const;
   double zoom_at(double level, const FrameState& shown) const;

@@ -43,11 +43,11 @@ double LoupeInset::opacity(const FrameState& shown) const {
   return std::clamp(opacity, 0.0, 1.0);
 }
 
-double LoupeInset::room_of(const FrameState& state) const { return room_px_ / gap_px(state); }
+double LoupeInset::most_zoom_of(const FrameState& state) const { return room_px_ / gap_px(state); }
 
 double LoupeInset::level(const FrameState& shown) const {
   const auto level_of = [&](const FrameState& state) {
-    const auto above = std::ranges::upper_bound(zooms_, room_of(state));
+    const auto above = std::ranges::upper_bound(zooms_, most_zoom_of(state));
     return static_cast<int>(std::max<std::ptrdiff_t>(1, above - zooms_.begin())) - 1;
   };
   if (!shown.moment) return level_of(shown);
@@ -56,7 +56,7 @@ double LoupeInset::level(const FrameState& shown) const {
 
 /// Below the first level the gap fills the inset, which shows more than no zoom would.
 double LoupeInset::zoom_at(double level, const FrameState& shown) const {
-  if (level < 1) return std::clamp(room_of(shown), 1.0, zooms_[1]);
+  if (level < 1) return std::clamp(most_zoom_of(shown), 1.0, zooms_[1]);
   const auto below = static_cast<std::size_t>(level);
   if (double(below) == level) return zooms_[below];
   const double ratio = zooms_[below + 1] / zooms_[below];
@@ -89,7 +89,7 @@ void LoupeInset::operator()(const FrameState& shown, std::vector<DrawItem>& item
   items.emplace_back(
       GroupItem{ItemId::loupe, bounds_,
                 std::make_shared<const DrawList>(picture(shown, stage_.scale * zoomed)), seen});
-  // It is said as a whole: between two of them as the nearer one, and not below the first.
+  // The label names one entry of zooms_: between two entries the nearer one.
   if (zoomed < zooms_[1]) return;
   const auto nearest = static_cast<std::size_t>(std::max(1L, std::lround(now)));
   add_zoom(zooms_[nearest], faded(palette_.text, seen), items);

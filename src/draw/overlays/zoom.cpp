@@ -43,7 +43,7 @@ void add_steps(const std::function<int(double)>& level_at, double from_s, double
 }
 
 /// The least level in the time of an ease from a moment on.
-int least_from(const std::vector<Level>& levels, double from_s) {
+int least_level_from(const std::vector<Level>& levels, double from_s) {
   int least = std::numeric_limits<int>::max();
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const bool is_over = i + 1 < levels.size() && levels[i + 1].from_s <= from_s;
@@ -56,8 +56,8 @@ int least_from(const std::vector<Level>& levels, double from_s) {
 
 }  // namespace
 
-/// The mean of least_from() over the time of an ease until now, weighted so that one step follows
-/// smooth_step().
+/// The mean of least_level_from() over the time of an ease until now, weighted so that one step
+/// follows smooth_step().
 double eased_level(const std::function<int(double)>& level_at) {
   const int now = level_at(0);
   std::vector<Level> levels{{-kZoomEase_s, level_at(-kZoomEase_s)}};
@@ -76,7 +76,7 @@ double eased_level(const std::function<int(double)>& level_at) {
   for (std::size_t i = 1; i < moments.size(); ++i) {
     const double share =
         smooth_step(-moments[i - 1] / kZoomEase_s) - smooth_step(-moments[i] / kZoomEase_s);
-    mean += share * least_from(levels, (moments[i - 1] + moments[i]) / 2);
+    mean += share * least_level_from(levels, (moments[i - 1] + moments[i]) / 2);
   }
   return mean;
 }

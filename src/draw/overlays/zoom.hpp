@@ -16,9 +16,10 @@ double straight_exp2(double y);
 /// How long a zoom takes from one level to the next, in seconds of video.
 inline constexpr double kZoomEase_s = 0.4;
 
-/// A level that changes in steps, with steps that take kZoomEase_s. It never exceeds the level of
-/// the moment: it begins to rise when that has risen for good, and to fall before that falls. What
-/// lasts shorter is left out. A function of the moment alone.
+/// A level that changes in steps, with steps that take kZoomEase_s. It never exceeds
+/// level_at(0): it starts to rise when level_at() rises, and has fallen by the time level_at()
+/// falls. A higher level that lasts less than kZoomEase_s is left out. The result depends on the
+/// moment alone.
 /// @param level_at  the level so many seconds of video from now, at most kZoomEase_s; between steps
 ///                  it is asked for a few times only
 double eased_level(const std::function<int(double from_now_s)>& level_at);

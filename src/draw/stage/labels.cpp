@@ -154,8 +154,8 @@ class LabelRoom {
       const double most = std::min(columns_.right, block.right() - pad) - half;
       middle = least <= most ? std::clamp(middle, least, most) : leave(label, block, shown);
     }
-    // By whole pixels, its figures keep their distances, and encoders find it again: of what runs
-    // fast also its colours, which have half as many samples.
+    // A label moves by whole pixels, so that its figures keep their distances and encoders find it
+    // again. A fast one moves by two, because colours have half as many samples.
     const double px_per_frame = shown.state.bodies[label.body].velocity[0] * shown.pace * frame_px_;
     const int step = std::fabs(px_per_frame) < 1 ? 1 : 2;
     double& x = label.text.origin.x;
