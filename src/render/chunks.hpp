@@ -79,9 +79,9 @@ class OrderedPool {
   /// @param while_waiting  called ten times a second.
   std::optional<Result> take(
       const std::stop_token& stop, const std::function<void()>& while_waiting = [] {}) {
-    if constexpr (!kHasThreads) return take_here(stop);
+    if (next_to_take_ == count_ || stop.stop_requested()) return std::nullopt;
+    if constexpr (!kHasThreads) return task_(next_to_take_++, stop);
     std::unique_lock lock(mutex_);
-    if (next_to_take_ == count_) return std::nullopt;
     const auto is_ready = [this] {
       return failure_ != nullptr || results_.contains(next_to_take_);
     };
@@ -103,11 +103,6 @@ class OrderedPool {
 
  private:
   static constexpr std::chrono::milliseconds kCallInterval{100};
-
-  std::optional<Result> take_here(const std::stop_token& stop) {
-    if (next_to_take_ == count_ || stop.stop_requested()) return std::nullopt;
-    return task_(next_to_take_++, stop);
-  }
 
   void work(const MakeTask& make_task, const std::stop_token& stop) {
     try {

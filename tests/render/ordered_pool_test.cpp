@@ -103,6 +103,23 @@ TEST(OrderedPool, RethrowsWhatMakingAWorkerThrows) {
   EXPECT_THROW(pool.take({}), DrawError);
 }
 
+/// As while a slow disk takes what is ready.
+TEST(OrderedPool, StopsThoughResultsAreReady) {
+  std::stop_source stop;
+  std::atomic<int> done = 0;
+  const auto make_task = [&] {
+    return [&](std::int64_t n, const std::stop_token& /*halt*/) {
+      ++done;
+      return n;
+    };
+  };
+  Pool pool(10, 1, make_task, nothing);
+  EXPECT_EQ(pool.take(stop.get_token()), 0);
+  while (done < 10) std::this_thread::yield();
+  stop.request_stop();
+  EXPECT_EQ(pool.take(stop.get_token()), std::nullopt);
+}
+
 TEST(OrderedPool, StopsWhenAsked) {
   std::stop_source stop;
   Pool pool(
