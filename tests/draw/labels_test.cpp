@@ -165,6 +165,8 @@ TEST(Labels, AMassIsBelowTheFloorWhereItsBlockIsSmall) {
       3, {{"show.overlays", "masses"}, {"view.theme", "lecture"}, {"view.size", "1280x720"}});
   scene.view.x = {0, 50};
   const Pictures pictures(scene);
+  const auto blue_at_wall = items_of<RectangleItem>(pictures.after(2).items, ItemId::blue_block);
+  const double wall_px = blue_at_wall.front().bounds.x + 0.25 * 0.036 * 720;
   for (const int count : {10, 150, 300}) {
     const DrawList list = pictures.after(count);
     const Rect blue = items_of<RectangleItem>(list.items, ItemId::blue_block).front().bounds;
@@ -175,7 +177,8 @@ TEST(Labels, AMassIsBelowTheFloorWhereItsBlockIsSmall) {
     EXPECT_EQ(box.what, "1 kg");
     EXPECT_GT(box.y, blue.bottom());
     EXPECT_LE(box.bottom(), 720);
-    EXPECT_NEAR(box.centre().x, std::max(blue.centre().x, 0.06 * 720 + box.width / 2), 1);
+    EXPECT_NEAR(box.centre().x, std::max(blue.centre().x, wall_px + box.width / 2), 1);
+    EXPECT_GE(box_of(masses.front(), Fonts()).x, wall_px - 1) << "nor is red's on the wall";
     EXPECT_LT(masses.front().origin.y, blue.y) << "red's is above red";
   }
   // Where a scale is, there is no room.

@@ -48,7 +48,7 @@ struct SeenLoupe {
   double face = 0;   ///< of the wall
   Rect blue;         ///< the block in between, or a block that keeps its place
   Rect red;          ///< the outer block
-  std::string zoom;  ///< as it is written, without its power; empty if it is not said
+  std::string zoom;  ///< the label of the zoom up to its power of ten; empty if there is none
   DrawList list;
 };
 

@@ -161,23 +161,26 @@ TEST(Loupe, FadesWithTheGap) {
   EXPECT_TRUE(was_half_seen);
 }
 
-/// Lines beside the blocks begin where red hides them, and stay while it moves.
+/// Lines beside the blocks begin where red hides them, and stay while the gap is small.
 TEST(Loupe, ItsLinesStay) {
-  const Frames frames(lecture(3));
-  std::set<double> begins;
-  for (Rational time = frames.turn() - Rational(1, 2); time < frames.turn() + Rational(1, 2);
-       time += Rational(1, 60)) {
-    const DrawList frame = frames.at(time);
-    if (!loupe_in(frame)) continue;
-    const Rect red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
-    for (const PathItem& line : items_of<PathItem>(frame.items, ItemId::wall)) {
-      const double begin = line.points.view()[0].x;
-      begins.insert(begin);
-      EXPECT_GT(begin, red.x);
-      EXPECT_LE(begin, std::ceil(red.right()));
+  for (const char* width : {"1", "1/5", "5/2"}) {
+    const Frames frames(lecture(3) + Settings{{"red.width", width}, {"show.overlays", "none"}});
+    std::set<double> begins;
+    for (Rational time = frames.turn() - 1; time < frames.turn() + 1; time += Rational(1, 60)) {
+      const DrawList frame = frames.at(time);
+      const auto seen = loupe_in(frame);
+      if (!seen) continue;
+      const Rect red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+      const double gap_px = frames.state({time}).gaps.y2 * pixels_per_unit(frame, frames.scene());
+      for (const PathItem& line : items_of<PathItem>(frame.items, ItemId::wall)) {
+        const double begin = line.points.view()[0].x;
+        EXPECT_GE(begin, red.x + 0.6 * red.width - 1) << width;
+        EXPECT_LE(begin, red.right() + 1) << width;
+        if (gap_px < 0.3 * red.width) begins.insert(begin);
+      }
     }
+    EXPECT_EQ(begins.size(), 1U) << width;
   }
-  EXPECT_EQ(begins.size(), 1U);
 }
 
 TEST(Loupe, IsOnlyWhereItIsAskedFor) {

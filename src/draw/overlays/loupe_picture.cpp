@@ -64,13 +64,14 @@ double LoupeInset::zoom_at(double level, const FrameState& shown) const {
 }
 
 /// They begin above the outer block; or behind it, where its far side is when the gap is closed, so
-/// that they stay while it moves. Between the blocks they would be in the way.
+/// that they stay while the gap is small. Between the blocks they would be in the way.
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;
   const Rect outer = stage_.at(gap_.outer, shown);
-  const bool is_above = lines_y_ <= outer.y;
-  const double inside = is_above ? kLinesInOuter * outer.width : outer.width - gap_px(shown);
+  double inside = kLinesInOuter * outer.width;
+  const bool is_behind = lines_y_ > outer.y;
+  if (is_behind) inside = std::max(inside, outer.width - gap_px(shown));
   // By whole pixels, they stay as they are while the block hardly moves.
   const Point from{std::round(gap_.side > 0 ? outer.x + inside : outer.right() - inside), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};

@@ -48,7 +48,7 @@ class BlockTexts {
       : font_(context.font),
         layout_(layout),
         size_px_(context.sizes.mass),
-        most_px_(text_columns({context, layout}).width()) {
+        most_px_(text_columns_between_walls({context, layout}).width()) {
     const std::vector<Body>& bodies = context.scene.system.bodies;
     for (std::size_t i = 0; i < bodies.size(); ++i) texts_.push_back(text_of(context, i));
     find_peaks(context);
@@ -137,6 +137,7 @@ class LabelRoom {
   explicit LabelRoom(const DrawingContext& context)
       : layout_(context.layout),
         columns_(text_columns(context)),
+        between_walls_(text_columns_between_walls(context)),
         pad_(kBelowLabel * context.sizes.short_side),
         frame_px_(context.layout.scale / to_double(context.scene.view.frame_rate)) {}
 
@@ -144,14 +145,15 @@ class LabelRoom {
     const Rect block = layout_.at(label.body, shown);
     if (block.right() <= 0 || block.x >= layout_.visible_right_px) return;
     const double half = label.half_px();
+    const Columns& columns = label.is_inside ? columns_ : between_walls_;
     double middle = block.x + block.width / 2;
     const double pad = std::min(pad_, std::max(0.0, block.width / 2 - half - kRounded_px));
     if (!label.is_inside) {
-      middle = std::clamp(middle, columns_.left + half,
-                          std::max(columns_.left + half, columns_.right - half));
+      middle = std::clamp(middle, columns.left + half,
+                          std::max(columns.left + half, columns.right - half));
     } else {
-      const double least = std::max(columns_.left, block.x + pad) + half;
-      const double most = std::min(columns_.right, block.right() - pad) - half;
+      const double least = std::max(columns.left, block.x + pad) + half;
+      const double most = std::min(columns.right, block.right() - pad) - half;
       middle = least <= most ? std::clamp(middle, least, most) : leave(label, block, shown);
     }
     // A label moves by whole pixels, so that its figures keep their distances and encoders find it
@@ -159,8 +161,8 @@ class LabelRoom {
     const double px_per_frame = shown.state.bodies[label.body].velocity[0] * shown.pace * frame_px_;
     const int step = std::fabs(px_per_frame) < 1 ? 1 : 2;
     double& x = label.text.origin.x;
-    x = std::min(std::max(step * std::round((x + middle) / step), std::ceil(columns_.left)),
-                 std::floor(columns_.right - 2 * half));
+    x = std::min(std::max(step * std::round((x + middle) / step), std::ceil(columns.left)),
+                 std::floor(columns.right - 2 * half));
     items.emplace_back(std::move(label.text));
   }
 
@@ -186,8 +188,9 @@ class LabelRoom {
   }
 
   Layout layout_;
-  // Where labels above or beside their blocks stay.
+  // Where labels stay: those on their blocks, or beside blocks that leave; and all others.
   Columns columns_;
+  Columns between_walls_;
   double pad_;
   double frame_px_;  ///< way in a frame at a velocity of 1 and the pace of 1
 };
@@ -229,7 +232,7 @@ void check_room(const DrawingContext& context, const BlockTexts& texts, std::siz
     // Below two blocks that meet, labels might meet too; and a scale may be there.
     const bool is_alone = labelled_below(context, context.layout).size() == 1;
     const bool is_wide = context.font.width_em(texts.text(body)) * context.sizes.mass >
-                         text_columns(context).width();
+                         text_columns_between_walls(context).width();
     const bool has_room =
         context.layout.below_px + kRounded_px >= label_room_below_px(context.sizes);
     if (is_alone && !is_wide && has_room && !context.scene.show.has(Overlay::ruler)) return;
