@@ -39,6 +39,33 @@ class HelpFormatter : public CLI::Formatter {
 
 constexpr int kAnyNumber = -1;
 
+struct NamedCommand {
+  const char* name;
+  const char* help;
+  void (*define)(Command& command);
+};
+
+constexpr NamedCommand kCommands[] = {
+    {"render", "Render a video or a sequence of frames", define_render},
+    {"join", "Join the parts of a rendering", define_join},
+    {"still", "Render one instant as a picture", define_still},
+    {"sheet", "Render several instants on one page, for paper", define_sheet},
+    {"page", "Write the live page, which runs this program in a browser", define_page},
+    {"log", "Print every collision, a row each", define_log},
+    {"state", "Print positions, velocities and count, one JSON object a line", define_state},
+    {"count", "Print the total number of collisions", define_count},
+    {"need", "Print how elastic real blocks must be to count digits of pi", define_need},
+    {"scenes", "List the scenes that come with the program", define_scenes},
+    {"compare", "Compare pictures, sequences or videos", define_compare},
+    {"golden", "Hold scenes to references: record, check, approve", define_golden},
+    {"info", "Print versions of the libraries, encoders found, limits", define_info},
+    {"manual", "Print the manual page, or what a shell needs to complete options", define_manual},
+};
+
+void add_version(CLI::App& command) {
+  command.add_flag("--version")->description("Print the version and exit");
+}
+
 }  // namespace
 
 std::unique_ptr<Program> make_program() {
@@ -51,34 +78,29 @@ std::unique_ptr<Program> make_program() {
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "Print this text and exit");
   app.require_subcommand(1);
-  Command program(*made, app);
-  add_render(program);
-  add_join(program);
-  add_still(program);
-  add_sheet(program);
-  add_page(program);
-  add_log(program);
-  add_state(program);
-  add_count(program);
-  add_need(program);
-  add_scenes(program);
-  add_compare(program);
-  add_golden(program);
-  add_info(program);
-  add_manual(program);
-  const auto add_version = [](CLI::App& command) {
-    command.add_flag("--version")->description("Print the version and exit");
-  };
   add_version(app);
-  for (CLI::App* command : app.get_subcommands({})) {
-    command->group("Commands");
-    add_version(*command);
+  for (const auto& [name, help, define] : kCommands) {
+    CLI::App& command = *app.add_subcommand(name, help);
+    command.group("Commands");
+    made->definitions[&command] = define;
   }
   app.get_formatter()->label("Positionals", "Arguments");
   app.footer(
       "'piblocks COMMAND --help' or 'piblocks help COMMAND' explains a command.\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage.");
   return made;
+}
+
+void define(Program& program, CLI::App& app) {
+  auto definition = program.definitions.extract(&app);
+  if (definition.empty()) return;
+  Command command(program, app);
+  definition.mapped()(command);
+  add_version(app);
+}
+
+void define_all(Program& program) {
+  for (CLI::App* command : program.app.get_subcommands({})) define(program, *command);
 }
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }

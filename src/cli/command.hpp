@@ -87,20 +87,20 @@ class Command final : public OptionTexts {
 /// @returns the exit code. @throws what commands throw
 int run_command_line(int argc, char** argv);
 
-// Each adds a command with its options, and what it does.
-void add_render(Command& app);
-void add_join(Command& app);
-void add_still(Command& app);
-void add_sheet(Command& app);
-void add_page(Command& app);
-void add_log(Command& app);
-void add_state(Command& app);
-void add_count(Command& app);
-void add_need(Command& app);
-void add_scenes(Command& app);
-void add_compare(Command& app);
-void add_golden(Command& app);
-void add_info(Command& app);
-void add_manual(Command& app);
+// Each gives a command its options, and says what it does.
+void define_render(Command& command);
+void define_join(Command& command);
+void define_still(Command& command);
+void define_sheet(Command& command);
+void define_page(Command& command);
+void define_log(Command& command);
+void define_state(Command& command);
+void define_count(Command& command);
+void define_need(Command& command);
+void define_scenes(Command& command);
+void define_compare(Command& command);
+void define_golden(Command& command);
+void define_info(Command& command);
+void define_manual(Command& command);
 
 }  // namespace piblocks::cli

@@ -194,8 +194,7 @@ void run_compare(const Command& options) {
 
 }  // namespace
 
-void add_compare(Command& app) {
-  Command command = app.add_command("compare", "Compare pictures, sequences or videos");
+void define_compare(Command& command) {
   command.add_argument("REFERENCE",
                        "What is expected: a PNG file, a folder of them, FRAMES/%06d.png,\n"
                        "a video, or hashes (*.framehash)");

@@ -152,8 +152,7 @@ void add_action(Command& golden, const char* name, const char* help,
 
 }  // namespace
 
-void add_golden(Command& app) {
-  Command command = app.add_command("golden", "Hold scenes to references: record, check, approve");
+void define_golden(Command& command) {
   command.require_command();
   add_action(command, "record", "Add the references that scenes do not have",
              run_write<record_golden>);

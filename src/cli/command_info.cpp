@@ -68,10 +68,6 @@ void run_info() {
 
 }  // namespace
 
-void add_info(Command& app) {
-  Command command =
-      app.add_command("info", "Print versions of the libraries, encoders found, limits");
-  command.on_run(run_info);
-}
+void define_info(Command& command) { command.on_run(run_info); }
 
 }  // namespace piblocks::cli

@@ -148,6 +148,7 @@ class ArgumentReader {
         throw without_command(*command_, about_unknown("command", word, command_names(*command_)));
       }
       command_ = named.front();
+      define(program_, *command_);
       return;
     }
     for (const CLI::Option* option : command_->get_options()) {

@@ -121,8 +121,7 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
 
 }  // namespace
 
-void add_log(Command& app) {
-  Command command = app.add_command("log", "Print every collision, a row each");
+void define_log(Command& command) {
   const SceneOptions scene(command);
   add_engine(command);
   command.add_value("--from", "T", "Leave out collisions before this instant (default 0)");

@@ -65,9 +65,7 @@ void print_need(int digits, int base, TextOutput& out) {
 
 }  // namespace
 
-void add_need(Command& app) {
-  Command command =
-      app.add_command("need", "Print how elastic real blocks must be to count digits of pi");
+void define_need(Command& command) {
   command.add_required_value("--digits", "D", "Of the article's scene with D digits, 1 to 1000");
   command.add_value("--base", "B", "In this base, 2 to 36 (default 10)");
   command.set_footer(

@@ -58,9 +58,7 @@ void run_page(const Command& options, const SceneOptions& scene) {
 
 }  // namespace
 
-void add_page(Command& app) {
-  Command command =
-      app.add_command("page", "Write the live page, which runs this program in a browser");
+void define_page(Command& command) {
   SceneOptions scene(command);
   command.add_required_value("-o,--output", "OUT", "NAME.html, or - (standard output)");
   scene.add_picture();

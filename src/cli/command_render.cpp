@@ -86,8 +86,7 @@ void run_join(const Command& options) {
 
 }  // namespace
 
-void add_render(Command& app) {
-  Command command = app.add_command("render", "Render a video or a sequence of frames");
+void define_render(Command& command) {
   SceneOptions scene(command);
   command.add_required_value("-o,--output", "OUT",
                              "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
@@ -112,8 +111,7 @@ void add_render(Command& app) {
   command.on_run([=] { run_render(command, scene); });
 }
 
-void add_join(Command& app) {
-  Command command = app.add_command("join", "Join the parts of a rendering");
+void define_join(Command& command) {
   command.add_arguments("PART", "Every file of 'render --part', in any order");
   command.add_required_value("-o,--output", "OUT", "The name that the parts were rendered for");
   command.add_flag("--overwrite", "Let pictures of a sequence replace other files");

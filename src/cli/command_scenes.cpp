@@ -21,8 +21,7 @@ void list_scenes() {
 
 }  // namespace
 
-void add_scenes(Command& app) {
-  Command command = app.add_command("scenes", "List the scenes that come with the program");
+void define_scenes(Command& command) {
   command.add_optional_argument("SCENE", "Print the file of this scene, to be saved and edited");
   command.set_footer(
       "A name stands for a scene file in all commands, unless there is a file of this name.\n\n"

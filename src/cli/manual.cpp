@@ -265,14 +265,14 @@ void run_manual(const Command& command) {
                                          {"zsh", zsh_completion},
                                          {"fish", fish_completion}});
   });
-  print_text(make_text(make_program()->app));
+  const std::unique_ptr<Program> program = make_program();
+  define_all(*program);
+  print_text(make_text(program->app));
 }
 
 }  // namespace
 
-void add_manual(Command& app) {
-  Command command =
-      app.add_command("manual", "Print the manual page, or what a shell needs to complete options");
+void define_manual(Command& command) {
   command.add_argument("KIND", "man, bash, zsh or fish");
   command.on_run([=] { run_manual(command); });
 }

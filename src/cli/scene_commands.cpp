@@ -97,8 +97,7 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
 
 }  // namespace
 
-void add_count(Command& app) {
-  Command command = app.add_command("count", "Print the total number of collisions");
+void define_count(Command& command) {
   SceneOptions options(command);
   command.add_value("--to", "T",
                     "Count collisions until then (default: all; needed where they\nnever end)");
@@ -110,9 +109,7 @@ void add_count(Command& app) {
   command.on_run([=] { run_count(command, options); });
 }
 
-void add_state(Command& app) {
-  Command command =
-      app.add_command("state", "Print positions, velocities and count, one JSON object a line");
+void define_state(Command& command) {
   const SceneOptions scene(command);
   command.add_required_value("--at", "T[,T...]", "Instants: 3.5, turn-0.3, last+1, '#314'");
   command.add_flag("--bounds",
@@ -125,8 +122,7 @@ void add_state(Command& app) {
   command.on_run([=] { run_state(command, scene); });
 }
 
-void add_still(Command& app) {
-  Command command = app.add_command("still", "Render one instant as a picture");
+void define_still(Command& command) {
   SceneOptions scene(command);
   command.add_required_value("--at", "T",
                              "Instant: a time, 'turn', 'last', or '#K' for collision K; an\n"
@@ -144,8 +140,7 @@ void add_still(Command& app) {
   command.on_run([=] { run_still(command, scene); });
 }
 
-void add_sheet(Command& app) {
-  Command command = app.add_command("sheet", "Render several instants on one page, for paper");
+void define_sheet(Command& command) {
   SceneOptions scene(command);
   command.add_value("--frames", "N", "So many instants, spread over the run (default 12)");
   command.add_value("--by", "WHAT",

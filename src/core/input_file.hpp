@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace piblocks {
 
@@ -30,6 +33,19 @@ inline std::optional<std::string> beginning_of(const std::filesystem::path& path
   std::string bytes(count, '\0');
   std::ifstream(path, std::ios::binary).read(bytes.data(), std::ssize(bytes));
   return bytes;
+}
+
+/// A regular file of at most `most_bytes`; empty if there is none, or if it cannot be read.
+inline std::vector<std::uint8_t> bytes_of_file(const std::filesystem::path& path,
+                                               std::size_t most_bytes) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size > most_bytes) return {};
+  std::vector<std::uint8_t> bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(bytes.data()), std::ssize(bytes));
+  return file.gcount() == std::ssize(bytes) ? bytes : std::vector<std::uint8_t>();
 }
 
 }  // namespace piblocks

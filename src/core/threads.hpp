@@ -4,8 +4,10 @@
 
 #include <piblocks/error.hpp>
 
+#include <future>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace piblocks {
 
@@ -25,6 +27,20 @@ auto start_thread(const Start& start) {
     throw IoError("threads: cannot start a thread: " + error.code().message() +
                   "; end other programs, or raise the limits of memory and processes (ulimit)");
   }
+}
+
+/// work(a) and work(b). @param in_threads  whether at once, if the system has another thread
+template <typename Item, typename Work>
+auto on_two_threads(bool in_threads, Item& a, Item& b, const Work& work) {
+  std::future<decltype(work(a))> first;
+  try {
+    if (in_threads) first = std::async(std::launch::async, [&] { return work(a); });
+  } catch (const std::system_error&) {
+    // One after the other does the same.
+  }
+  auto second = work(b);
+  auto one = first.valid() ? first.get() : work(a);
+  return std::pair(std::move(one), std::move(second));
 }
 
 }  // namespace piblocks

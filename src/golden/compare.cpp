@@ -8,6 +8,8 @@
 #include <cstring>
 #include <optional>
 
+#include "golden/packed_rows.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -31,6 +33,35 @@ Picture<std::uint64_t> picture_of(const DeepImage& image) {
   constexpr std::ptrdiff_t kBytes = sizeof(std::uint64_t);
   return {reinterpret_cast<const std::uint8_t*>(image.words.data()), image.width_px,
           image.height_px, kBytes * image.width_px, image.max_level};
+}
+
+/// Rows of packed pixels, of which only those that are asked for are unpacked.
+struct PackedRows {
+  const PackedImage& image;
+  int width_px = image.width_px;
+  int height_px = image.height_px;
+  int max_level = 255;
+  mutable std::vector<std::uint32_t> words = std::vector<std::uint32_t>(std::size_t(width_px));
+
+  const std::uint32_t* row(int y) const {
+    image.unpack_row(y, words.data());
+    return words.data();
+  }
+};
+
+PackedRows picture_of(const PackedImage& image) { return {image}; }
+
+template <typename Word>
+bool has_equal_rows(const Picture<Word>& reference, const Picture<Word>& actual, int y) {
+  return std::memcmp(reference.row(y), actual.row(y),
+                     static_cast<std::size_t>(reference.width_px) * sizeof(Word)) == 0;
+}
+
+bool has_equal_rows(const PackedRows& reference, const PackedRows& actual, int y) {
+  const PackedImage& a = reference.image;
+  const PackedImage& b = actual.image;
+  return a.is_packed_as(b) &&
+         (a.bytes == b.bytes || std::memcmp(a.row(y), b.row(y), a.row_bytes()) == 0);
 }
 
 /// How much each sample of two pixels differs: red, green, blue and alpha, or what is in their
@@ -79,8 +110,8 @@ bool cover_all(std::span<const PixelRect> masks, int width_px, int height_px) {
 /// Calls take(deltas, x, y) for each pair of pixels that differ outside the masks, row by row.
 /// @returns the number of pixels that differ inside the masks.
 /// @throws UsageError if the pictures are of different sizes or depths.
-template <typename Word, typename Take>
-std::int64_t for_each_difference(const Picture<Word>& reference, const Picture<Word>& actual,
+template <typename Rows, typename Take>
+std::int64_t for_each_difference(const Rows& reference, const Rows& actual,
                                  std::span<const PixelRect> masks, const Take& take) {
   if (reference.width_px != actual.width_px || reference.height_px != actual.height_px) {
     throw UsageError(fmt::format("compare: the images are of different sizes: {}x{} and {}x{}",
@@ -92,12 +123,11 @@ std::int64_t for_each_difference(const Picture<Word>& reference, const Picture<W
         fmt::format("compare: the images are of different depths: samples up to {} and up to {}",
                     reference.max_level, actual.max_level));
   }
-  const auto row_bytes = static_cast<std::size_t>(reference.width_px) * sizeof(Word);
   std::int64_t masked = 0;
   for (int y = 0; y < reference.height_px; ++y) {
-    const Word* const a = reference.row(y);
-    const Word* const b = actual.row(y);
-    if (std::memcmp(a, b, row_bytes) == 0) continue;
+    if (has_equal_rows(reference, actual, y)) continue;
+    const auto* const a = reference.row(y);
+    const auto* const b = actual.row(y);
     for (int x = 0; x < reference.width_px; ++x) {
       if (a[x] == b[x]) continue;
       if (is_masked(masks, x, y)) {
@@ -190,9 +220,9 @@ int levels_of(const Rational& delta, int max_level) {
   return static_cast<int>(floor(delta * max_level / 255).get_si());
 }
 
-template <typename Word>
-Difference compare_pictures(const Picture<Word>& reference, const Picture<Word>& actual,
-                            const Tolerance& tolerance, std::span<const PixelRect> masks) {
+template <typename Rows>
+Difference compare_pictures(const Rows& reference, const Rows& actual, const Tolerance& tolerance,
+                            std::span<const PixelRect> masks) {
   check_tolerance(tolerance);
   if (cover_all(masks, reference.width_px, reference.height_px)) {
     throw UsageError(fmt::format("compare: the masks leave nothing of a picture of {}x{}",
@@ -223,9 +253,8 @@ Difference compare_pictures(const Picture<Word>& reference, const Picture<Word>&
   return result;
 }
 
-template <typename Word>
-std::vector<std::uint8_t> largest_deltas(const Picture<Word>& reference,
-                                         const Picture<Word>& actual,
+template <typename Rows>
+std::vector<std::uint8_t> largest_deltas(const Rows& reference, const Rows& actual,
                                          std::span<const PixelRect> masks) {
   const auto width = static_cast<std::size_t>(reference.width_px);
   const int max_level = reference.max_level;
@@ -256,6 +285,16 @@ std::vector<std::uint8_t> pixel_deltas(const Image& reference, const Image& actu
 }
 
 std::vector<std::uint8_t> pixel_deltas(const DeepImage& reference, const DeepImage& actual,
+                                       std::span<const PixelRect> masks) {
+  return largest_deltas(picture_of(reference), picture_of(actual), masks);
+}
+
+Difference compare(const PackedImage& reference, const PackedImage& actual,
+                   const Tolerance& tolerance, std::span<const PixelRect> masks) {
+  return compare_pictures(picture_of(reference), picture_of(actual), tolerance, masks);
+}
+
+std::vector<std::uint8_t> pixel_deltas(const PackedImage& reference, const PackedImage& actual,
                                        std::span<const PixelRect> masks) {
   return largest_deltas(picture_of(reference), picture_of(actual), masks);
 }

@@ -6,9 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/input_file.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/png/png_reader.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -22,24 +20,12 @@ class PictureSide final : public FrameSide {
     if (fetched_ == pictures_.size()) return std::nullopt;
     return pictures_[fetched_].step;
   }
-  bool fetch() override {
-    const ListedPicture& picture = pictures_[fetched_++].picture;
-    if (!picture.problem.empty()) throw IoError(picture.problem);
-    refuse_pipe(picture.path, "compare");
-    reader_ = read_png_frame(picture.path);
-    return reader_->next();
-  }
-  std::string name() const override {
-    const ListedPicture& picture = pictures_[fetched_ - 1].picture;
-    return picture.name.empty() ? picture.path.string() : picture.name;
-  }
+  Fetched fetch() override { return fetch_picture(pictures_[fetched_++].picture); }
   bool goes_on_after_failure() const override { return true; }
-  FrameReader& frame() override { return *reader_; }
 
  private:
   std::vector<PlacedPicture> pictures_;
   std::size_t fetched_ = 0;
-  std::unique_ptr<FrameReader> reader_;
 };
 
 class VideoSide final : public FrameSide {
@@ -50,24 +36,36 @@ class VideoSide final : public FrameSide {
   std::optional<std::int64_t> next_step() const override {
     return is_over_ ? std::nullopt : std::optional(fetched_);
   }
-  bool fetch() override {
+  Fetched fetch() override {
+    Fetched fetched{.is_there = true};
+    try {
+      fetched.is_there = read();
+    } catch (const IoError& error) {
+      if (stop_.stop_requested()) throw;
+      fetched.problem = error.what();
+    } catch (const MediaError& error) {
+      if (stop_.stop_requested()) throw;
+      fetched.problem = error.what();
+    }
+    fetched.name = reader_ ? fmt::format("frame {}", is_over_ ? fetched_ : fetched_ - 1)
+                           : fs::path(path_).filename().string();
+    fetched.frame = reader_;
+    return fetched;
+  }
+  bool goes_on_after_failure() const override { return false; }
+
+ private:
+  bool read() {
     is_over_ = true;  // if this throws
     if (!reader_) reader_ = read_video(path_, stop_);
     is_over_ = !reader_->next();
     if (!is_over_) ++fetched_;
     return !is_over_;
   }
-  std::string name() const override {
-    if (!reader_) return fs::path(path_).filename();
-    return fmt::format("frame {}", is_over_ ? fetched_ : fetched_ - 1);
-  }
-  bool goes_on_after_failure() const override { return false; }
-  FrameReader& frame() override { return *reader_; }
 
- private:
   std::string path_;
   std::stop_token stop_;
-  std::unique_ptr<FrameReader> reader_;
+  std::shared_ptr<FrameReader> reader_;
   bool is_over_ = false;
   std::int64_t fetched_ = 0;
 };

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "golden/frame_pair.hpp"
 #include "golden/picture_list.hpp"
-#include "media/pixels/frame_reader.hpp"
 
 namespace piblocks {
 
@@ -21,15 +21,11 @@ class FrameSide {
   /// The step at which the next frame stands; nothing after the last. A video may turn out to have
   /// none there.
   virtual std::optional<std::int64_t> next_step() const = 0;
-  /// Goes to that step and reads its frame. False if there is none after all.
-  /// @throws IoError, MediaError if it cannot be read.
-  virtual bool fetch() = 0;
-  /// The name of the last frame that was fetched, even if it could not be read.
-  virtual std::string name() const = 0;
+  /// Goes to that step and reads its frame, which stays until the next call.
+  /// @throws IoError, MediaError once a stop has been requested: then the frame has no problem.
+  virtual Fetched fetch() = 0;
   /// Whether frames after one that cannot be read can be fetched.
   virtual bool goes_on_after_failure() const = 0;
-  /// The frame that was fetched: its samples, what they mean, and how players show them.
-  virtual FrameReader& frame() = 0;
 };
 
 struct PlacedPicture {

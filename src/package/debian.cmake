@@ -53,7 +53,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpiblocks-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 "piblocks (= ${package_version}), libgmp-dev, libmpfr-dev, libtomlplusplus-dev, \
-libcairo2-dev, libfreetype-dev, libpixman-1-dev, libpng-dev, zlib1g-dev, \
+libcairo2-dev, libfreetype-dev, libpixman-1-dev, libpng-dev, zlib1g-dev, libdeflate-dev, \
 libfmt-dev")
 # For event_simulator.hpp.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libeigen3-dev)

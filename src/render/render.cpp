@@ -5,6 +5,7 @@
 
 #include <atomic>
 
+#include "core/ordered_pool.hpp"
 #include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"

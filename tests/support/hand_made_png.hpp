@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct HandMadePng {
   std::vector<int> levels = {};  ///< row by row, the channels of a pixel after each other
   std::string chunks = {};       ///< that stand before the pixels
   bool is_interlaced = false;
+  std::vector<int> filters = {};  ///< of the rows, in turn; without any, no row is filtered
 };
 
 inline std::string big_endian(std::uint32_t value) {
@@ -41,6 +43,43 @@ inline std::string png_chunk(const std::string& type, const std::string& data) {
   const uLong crc = crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size()));
   return big_endian(static_cast<std::uint32_t>(data.size())) + body +
          big_endian(static_cast<std::uint32_t>(crc));
+}
+
+/// What a filter predicts of a byte from those left, above, and above left of it (ISO/IEC
+/// 15948, 9.2).
+inline int png_prediction(int filter, int left, int above, int above_left) {
+  if (filter == 1) return left;
+  if (filter == 2) return above;
+  if (filter == 3) return (left + above) / 2;
+  if (filter == 0) return 0;
+  const int sum = left + above - above_left;
+  const int from_left = std::abs(sum - left);
+  const int from_above = std::abs(sum - above);
+  const int from_above_left = std::abs(sum - above_left);
+  if (from_left <= from_above && from_left <= from_above_left) return left;
+  return from_above <= from_above_left ? above : above_left;
+}
+
+/// Filters rows that each stand behind a zero.
+inline std::string png_filtered(const std::string& rows, std::size_t row_bytes,
+                                std::size_t pixel_bytes, const std::vector<int>& filters) {
+  std::string filtered = rows;
+  for (std::size_t at = 0, y = 0; at < rows.size(); at += row_bytes + 1, ++y) {
+    const int filter = filters[y % filters.size()];
+    filtered[at] = static_cast<char>(filter);
+    const auto byte = [&](std::size_t i, std::size_t back) {
+      return back > i ? 0 : static_cast<int>(static_cast<std::uint8_t>(rows[i - back]));
+    };
+    for (std::size_t x = 0; x < row_bytes; ++x) {
+      const std::size_t i = at + 1 + x;
+      const bool has_left = x >= pixel_bytes;
+      const int left = has_left ? byte(i, pixel_bytes) : 0;
+      const int above = y > 0 ? byte(i, row_bytes + 1) : 0;
+      const int above_left = y > 0 && has_left ? byte(i, row_bytes + 1 + pixel_bytes) : 0;
+      filtered[i] = static_cast<char>(byte(i, 0) - png_prediction(filter, left, above, above_left));
+    }
+  }
+  return filtered;
 }
 
 /// The pixels that start at (x, y), in steps of (dx, dy), as rows without a filter.
@@ -75,6 +114,12 @@ inline std::string file_of(const HandMadePng& png) {
     for (const auto& [x, y, dx, dy] : kAdam7) rows += png_rows(png, x, y, dx, dy);
   } else {
     rows = png_rows(png, 0, 0, 1, 1);
+  }
+  if (!png.filters.empty()) {
+    const auto row_bits =
+        static_cast<std::size_t>(png.width_px * channels_of(png.colour) * png.bits);
+    const auto pixel_bits = static_cast<std::size_t>(channels_of(png.colour) * png.bits);
+    rows = png_filtered(rows, (row_bits + 7) / 8, (pixel_bits + 7) / 8, png.filters);
   }
   uLongf size = compressBound(rows.size());
   std::string compressed(size, '\0');

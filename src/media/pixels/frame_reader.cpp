@@ -36,19 +36,19 @@ int max_level_of(const AnyImage& image) {
 DeepImage deepened(AnyImage image, int max_level) {
   auto* const deep = std::get_if<DeepImage>(&image);
   if (deep != nullptr && deep->max_level == max_level) return std::move(*deep);
-  DeepImage result{.max_level = max_level};
-  std::visit(
-      [&](const auto& from) {
-        result.width_px = from.width_px;
-        result.height_px = from.height_px;
-        scale(from.words, max_level_of(image), result.words, max_level);
-      },
-      image);
-  return result;
+  const auto scaled = [&](const auto& from) {
+    DeepImage result{from.width_px, from.height_px, max_level, {}};
+    scale(from.words, max_level_of(image), result.words, max_level);
+    return result;
+  };
+  return deep != nullptr ? scaled(*deep) : scaled(flattened(std::move(image)));
 }
 
 Image flattened(AnyImage image) {
   if (auto* const flat = std::get_if<Image>(&image)) return std::move(*flat);
+  if constexpr (kReadsPackedPng) {
+    if (const auto* const packed = std::get_if<PackedImage>(&image)) return unpacked(*packed);
+  }
   const DeepImage& deep = std::get<DeepImage>(image);
   Image result{deep.width_px, deep.height_px, {}};
   scale(deep.words, deep.max_level, result.words, 255);

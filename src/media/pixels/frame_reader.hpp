@@ -8,10 +8,12 @@
 #include <string_view>
 #include <variant>
 
+#include "media/png/packed_png.hpp"
+
 namespace piblocks {
 
-/// A picture of 8 bits a sample, or of more.
-using AnyImage = std::variant<Image, DeepImage>;
+/// A picture of 8 bits a sample, of more, or of 8 bits as its file has them.
+using AnyImage = std::variant<Image, DeepImage, PackedImage>;
 
 /// The largest possible sample, at least 255.
 int max_level_of(const AnyImage& image);

@@ -263,10 +263,16 @@ void refuse_animation(const PngFile& file, const fs::path& path) {
 /// One frame.
 class PngReader final : public FrameReader {
  public:
-  explicit PngReader(fs::path path) : path_(std::move(path)) {}
+  PngReader(fs::path path, Bytes file) : path_(std::move(path)), file_(std::move(file)) {}
 
   bool next() override {
     if (std::exchange(is_read_, true)) return false;
+    if constexpr (kReadsPackedPng) {
+      if (auto packed = read_packed_png(std::exchange(file_, {}))) {
+        samples_ = *std::move(packed);
+        return true;
+      }
+    }
     PngFile file(path_);
     refuse_animation(file, path_);
     samples_ = samples_of(file);
@@ -280,6 +286,7 @@ class PngReader final : public FrameReader {
 
  private:
   fs::path path_;
+  Bytes file_;
   std::string presentation_;
   bool is_read_ = false;
   AnyImage samples_;
@@ -325,8 +332,8 @@ bool is_png_file(const fs::path& path) {
 
 bool is_animated_png(const fs::path& path) { return PngFile(path).is_animated(); }
 
-std::unique_ptr<FrameReader> read_png_frame(fs::path path) {
-  return std::make_unique<PngReader>(std::move(path));
+std::unique_ptr<FrameReader> read_png_frame(fs::path path, Bytes file) {
+  return std::make_unique<PngReader>(std::move(path), std::move(file));
 }
 
 }  // namespace piblocks

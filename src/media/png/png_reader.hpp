@@ -46,6 +46,7 @@ std::unique_ptr<FrameReader> read_apng(const std::filesystem::path& path);
 std::string presentation_by_exif(ByteSpan exif);
 
 /// A PNG file as the only frame. Reading throws as read_png_samples().
-std::unique_ptr<FrameReader> read_png_frame(std::filesystem::path path);
+/// @param file  what is in it; it is opened only if libpng has to read it, or if this is empty.
+std::unique_ptr<FrameReader> read_png_frame(std::filesystem::path path, Bytes file = {});
 
 }  // namespace piblocks

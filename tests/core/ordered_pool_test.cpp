@@ -4,7 +4,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "render/chunks.hpp"
+#include "core/ordered_pool.hpp"
 
 namespace piblocks {
 namespace {

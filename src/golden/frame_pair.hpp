@@ -1,0 +1,53 @@
+// Two frames of a comparison: read, and compared with each other.
+// In: PNG files or frames of videos. Out: what is found about them, with the pictures for reports.
+#pragma once
+
+#include <piblocks/compare.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "golden/picture_list.hpp"
+#include "media/pixels/frame_reader.hpp"
+
+namespace piblocks {
+
+/// What one side has at a step: a frame, a frame that cannot be read, or none.
+struct Fetched {
+  bool is_there = false;
+  std::string name = {};                    ///< for people
+  std::string problem = {};                 ///< why it cannot be read
+  std::shared_ptr<FrameReader> frame = {};  ///< stands at the frame, if it could be read
+
+  bool is_read() const { return is_there && problem.empty(); }
+};
+
+Fetched fetch_picture(const ListedPicture& picture);
+
+struct PictureSize {
+  int width_px = 0;
+  int height_px = 0;
+
+  friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+/// A row of a comparison, before it has a number. Its functions own what they need.
+struct ComparedPair {
+  FrameComparison row;
+  bool has_reference = false;
+  bool has_actual = false;
+  std::optional<PictureSize> size = {};  ///< of both, if there are masks that may lie in them
+  std::size_t held_bytes = 0;            ///< by the functions, about
+};
+
+/// @throws UsageError as compare()
+ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJob& job);
+
+/// Reads and compares two files. Of files with the same bytes only one is inflated.
+/// @param in_threads  whether two threads read them
+/// @throws UsageError as compare()
+ComparedPair compare_pictures(const ListedPicture& reference, const ListedPicture& actual,
+                              bool in_threads, const ComparisonJob& job);
+
+}  // namespace piblocks
