@@ -22,6 +22,8 @@ namespace piblocks {
 struct Window {
   int side_px = 16;             ///< >= 1
   std::int64_t max_pixels = 0;  ///< that may be off, wherever the window is
+
+  friend bool operator==(const Window&, const Window&) = default;
 };
 
 /// What is accepted: all of it has to hold. The default accepts nothing but equality. A delta of
@@ -31,8 +33,14 @@ struct Tolerance {
   std::int64_t max_pixels = 0;  ///< that are off in the whole image
   Rational hard_delta = 255;    ///< no sample of any pixel may differ by more, 0 … 255
   std::optional<Window> window = {};  ///< bounds the pixels that are off in one place
+  /// If given, a pixel is off if it looks different, 0 … 1, whatever max_delta says: as odiff and
+  /// pixelmatch 7 measure it, in YIQ and on white. Samples of RGB only.
+  std::optional<double> threshold = {};
+  bool counts_smoothing = false;     ///< whether pixels of smoothed edges are off by the threshold
+  bool ignores_transparent = false;  ///< whether fully transparent pixels are equal
+  std::optional<Rational> max_share = {};  ///< of the image's pixels that are off, 0 … 1
 
-  bool is_exact() const { return max_delta == 0 && max_pixels == 0; }
+  friend bool operator==(const Tolerance&, const Tolerance&) = default;
 };
 
 /// A sample. Channels 0 to 3 are red, green, blue and alpha, or Y, Cb and Cr.
@@ -73,13 +81,23 @@ Difference compare(const DeepImage& reference, const DeepImage& actual,
 /// that the pixel is equal or in one of the masks.
 /// @throws UsageError if the images are not of one size.
 std::vector<std::uint8_t> pixel_deltas(const Image& reference, const Image& actual,
-                                       std::span<const PixelRect> masks = {});
+                                       std::span<const PixelRect> masks = {},
+                                       bool ignores_transparent = false);
 /// The same for deeper samples. @throws UsageError also if the images differ in max_level.
 std::vector<std::uint8_t> pixel_deltas(const DeepImage& reference, const DeepImage& actual,
-                                       std::span<const PixelRect> masks = {});
+                                       std::span<const PixelRect> masks = {},
+                                       bool ignores_transparent = false);
 
 /// Longest file of hashes that is read, in lines.
 inline constexpr std::size_t kMaxHashes = 2'000'000;
+
+/// A part of pictures that is not compared.
+struct Mask {
+  std::string text;          ///< as it was given, for messages
+  std::string picture = {};  ///< a name or a pattern of the shell; empty for all
+  std::vector<PixelRect> rects = {};
+  std::optional<PixelRect> whole = {};  ///< the size that a picture must have, from 0, 0
+};
 
 /// The reference and the actual side may each be a PNG file, a folder of them, a numbered pattern
 /// such as frames/%06d.png, a video, or a file of frame hashes.
@@ -91,8 +109,8 @@ struct ComparisonJob {
   std::string reference;
   std::string actual;
   Tolerance tolerance = {};
-  std::vector<PixelRect> masks = {};  ///< not compared
-  bool is_recursive = true;           ///< whether subfolders are searched too
+  std::vector<Mask> masks = {};
+  bool is_recursive = true;  ///< whether subfolders are searched too
 };
 
 /// What is found about a frame, from the least severe to the most severe.

@@ -10,9 +10,12 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
+#include "core/text.hpp"
+#include "golden/mask_picture.hpp"
 #include "golden/picture_list.hpp"
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
+#include "media/png/png_reader.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -27,6 +30,19 @@ std::int64_t parse_pixels(const std::string& text) {
   return parse_whole_number(text, 0, Integer(kMaxFrame_px)).get_si();
 }
 
+/// "0.1%", of the pixels of a frame.
+Rational parse_share(const std::string& text) {
+  const Rational share = parse_rational(text.substr(0, text.size() - 1)) / 100;
+  if (share < 0 || share > 1) throw UsageError("must be a number of pixels, or from 0% to 100%");
+  return share;
+}
+
+double parse_threshold(const std::string& text) {
+  const Rational threshold = parse_rational(text);
+  if (threshold < 0 || threshold > 1) throw UsageError("must be a number from 0 to 1");
+  return to_double(threshold);
+}
+
 /// "16:40", at most 40 pixels in any square of 16x16.
 Window parse_window(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -35,12 +51,13 @@ Window parse_window(const std::string& text) {
 }
 
 /// "640x80+100+20", from the left and the top.
-PixelRect parse_mask(const std::string& text) {
+PixelRect parse_rect(const std::string& text) {
   const std::size_t x = text.find('x');
   const std::size_t left = text.find('+');
   const std::size_t top = text.find('+', left + 1);
   if (x == std::string::npos || left == std::string::npos || top == std::string::npos || x > left) {
-    throw UsageError("must be WxH+X+Y, such as 640x80+100+20");
+    throw UsageError(
+        "must be WxH+X+Y, such as 640x80+100+20, or a PNG file, or one of these behind NAME:");
   }
   const auto number = [&](std::size_t begin, std::size_t end, int low) {
     return parse_int(text.substr(begin, end - begin), low, kMaxSide_px);
@@ -49,14 +66,51 @@ PixelRect parse_mask(const std::string& text) {
           number(x + 1, left, 1)};
 }
 
+/// A rectangle or a picture, perhaps behind the name of the pictures that it is for.
+Mask parse_mask(const std::string& text) {
+  Mask mask{.text = text};
+  const std::size_t colon = text.rfind(':');
+  const bool is_named = colon != std::string::npos;
+  if (is_named) mask.picture = text.substr(0, colon);
+  const std::string place = is_named ? text.substr(colon + 1) : text;
+  if (is_named && mask.picture.empty()) throw UsageError("there is no name in front of the colon");
+  if (!has_ending(place, ".png")) {
+    mask.rects = {parse_rect(place)};
+    return mask;
+  }
+  try {
+    const Image picture = read_png(place);
+    mask.rects = rects_of_mask(picture);
+    mask.whole = PixelRect{0, 0, picture.width_px, picture.height_px};
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  if (mask.rects.empty()) throw UsageError("all of it is black or transparent: it hides nothing");
+  return mask;
+}
+
 Tolerance tolerance_of(const Command& options) {
   Tolerance tolerance;
   tolerance.max_delta = options.value("--max-delta", parse_delta).value_or(0);
   tolerance.hard_delta = options.value("--hard-delta", parse_delta).value_or(255);
   tolerance.window = options.value("--max-window", parse_window);
   // A bound on any window replaces the default bound on the whole frame.
-  const std::int64_t otherwise = tolerance.window ? kMaxFrame_px : 0;
-  tolerance.max_pixels = options.value("--max-pixels", parse_pixels).value_or(otherwise);
+  tolerance.max_pixels = tolerance.window ? kMaxFrame_px : 0;
+  if (const auto most = options.text("--max-pixels"); most && most->ends_with('%')) {
+    tolerance.max_share = options.value("--max-pixels", parse_share);
+    tolerance.max_pixels = kMaxFrame_px;
+  } else if (most) {
+    tolerance.max_pixels = *options.value("--max-pixels", parse_pixels);
+  }
+  tolerance.threshold = options.value("--threshold", parse_threshold);
+  tolerance.counts_smoothing = options.is_given("--count-antialiasing");
+  tolerance.ignores_transparent = options.is_given("--ignore-transparent");
+  if (tolerance.threshold && options.is_given("--max-delta")) {
+    throw UsageError("--threshold and --max-delta: use one of them");
+  }
+  if (tolerance.counts_smoothing && !tolerance.threshold) {
+    throw UsageError("--count-antialiasing belongs to --threshold, which is not given");
+  }
   return tolerance;
 }
 
@@ -203,11 +257,19 @@ void define_compare(Command& command) {
   command.add_value("--max-delta", "D",
                     "Accept samples that differ by up to D, where 255 is the full\n"
                     "range at any depth: 0.25 is one level of 10 bits");
-  command.add_value("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more");
+  command.add_value("--threshold", "T",
+                    "Accept instead what looks alike, 0 to 1, as odiff and pixelmatch 7\n"
+                    "do (they take 0.1), and pixels of smoothed edges");
+  command.add_flag("--count-antialiasing", "With --threshold, do not accept smoothed edges");
+  command.add_flag("--ignore-transparent",
+                   "Accept any colour of pixels that are fully transparent");
+  command.add_value("--max-pixels", "N",
+                    "Accept up to N pixels of a frame that differ by more, or N%");
   command.add_value("--hard-delta", "D", "Accept no sample at all that differs by more than D");
   command.add_value("--max-window", "N:K", "Accept up to K such pixels in any square of NxN");
-  command.add_values("--mask", "WxH+X+Y",
-                     "Leave this rectangle out; may be given again, but something must\n"
+  command.add_values("--mask", "MASK",
+                     "Leave out a part: WxH+X+Y, or what is not black in a PNG file; of\n"
+                     "some pictures by NAME:MASK. May be given again, but something must\n"
                      "be left of every picture");
   command.add_flag("--no-recursive", "Leave out the folders in a folder");
   command.add_value("--diff", "DIR",

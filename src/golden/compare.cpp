@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "golden/packed_rows.hpp"
+#include "golden/perceptual.hpp"
 
 namespace piblocks {
 namespace {
@@ -64,25 +66,42 @@ bool has_equal_rows(const PackedRows& reference, const PackedRows& actual, int y
          (a.bytes == b.bytes || std::memcmp(a.row(y), b.row(y), a.row_bytes()) == 0);
 }
 
-/// How much each sample of two pixels differs: red, green, blue and alpha, or what is in their
-/// places.
 template <typename Word>
-std::array<int, 4> deltas_of(Word a, Word b) {
+using Level = std::conditional_t<sizeof(Word) == 4, std::uint8_t, std::uint16_t>;
+
+template <typename Word>
+Word sample_of(Word word, std::size_t place) {
   constexpr std::size_t kBits = sizeof(Word) * 2;
-  const auto delta = [a, b](std::size_t place) {
-    constexpr Word kMask = (Word{1} << kBits) - 1;
-    const auto level = [place](Word word) {
-      return static_cast<int>((word >> (place * kBits)) & kMask);
-    };
-    return std::abs(level(a) - level(b));
-  };
-  return {delta(2), delta(1), delta(0), delta(3)};
+  return (word >> (place * kBits)) & ((Word{1} << kBits) - 1);
 }
 
-bool is_masked(std::span<const PixelRect> masks, int x, int y) {
-  return std::ranges::any_of(masks, [&](const PixelRect& r) {
-    return x >= r.x_px && x - r.x_px < r.width_px && y >= r.y_px && y - r.y_px < r.height_px;
-  });
+/// The largest delta of the samples of each pixel.
+template <typename Word>
+void find_deltas(const Word* a, const Word* b, std::vector<Level<Word>>& deltas) {
+  Level<Word>* const to = deltas.data();  // a local copy, since bytes may lie in any object
+  for (std::size_t x = 0, count = deltas.size(); x < count; ++x) {
+    Word largest = 0;
+    for (std::size_t place = 0; place < 4; ++place) {
+      const Word one = sample_of(a[x], place);
+      const Word other = sample_of(b[x], place);
+      largest = std::max(largest, one > other ? one - other : other - one);
+    }
+    to[x] = static_cast<Level<Word>>(largest);
+  }
+}
+
+/// Sets deltas inside the masks to 0. @returns how many were not.
+template <typename Level>
+std::int64_t clear_masked(std::span<const PixelRect> masks, int y, std::vector<Level>& deltas) {
+  std::int64_t cleared = 0;
+  for (const PixelRect& r : masks) {
+    if (y < r.y_px || y - r.y_px >= r.height_px) continue;
+    const auto right = std::min(std::int64_t{r.x_px} + r.width_px, std::ssize(deltas));
+    for (std::int64_t x = std::max(r.x_px, 0); x < right; ++x) {
+      cleared += std::exchange(deltas[static_cast<std::size_t>(x)], Level{0}) != 0 ? 1 : 0;
+    }
+  }
+  return cleared;
 }
 
 /// Whether the masks together cover the whole picture. It is enough to check the first row and the
@@ -107,12 +126,13 @@ bool cover_all(std::span<const PixelRect> masks, int width_px, int height_px) {
   });
 }
 
-/// Calls take(deltas, x, y) for each pair of pixels that differ outside the masks, row by row.
-/// @returns the number of pixels that differ inside the masks.
+/// Calls take(y, deltas) for each row in which pixels differ outside the masks: what find_deltas()
+/// finds. @returns the number of pixels that differ inside the masks.
 /// @throws UsageError if the pictures are of different sizes or depths.
 template <typename Rows, typename Take>
 std::int64_t for_each_difference(const Rows& reference, const Rows& actual,
-                                 std::span<const PixelRect> masks, const Take& take) {
+                                 std::span<const PixelRect> masks, bool ignores_transparent,
+                                 const Take& take) {
   if (reference.width_px != actual.width_px || reference.height_px != actual.height_px) {
     throw UsageError(fmt::format("compare: the images are of different sizes: {}x{} and {}x{}",
                                  reference.width_px, reference.height_px, actual.width_px,
@@ -123,19 +143,19 @@ std::int64_t for_each_difference(const Rows& reference, const Rows& actual,
         fmt::format("compare: the images are of different depths: samples up to {} and up to {}",
                     reference.max_level, actual.max_level));
   }
+  using Word = std::remove_cvref_t<decltype(*reference.row(0))>;
+  std::vector<Level<Word>> deltas(static_cast<std::size_t>(reference.width_px));
   std::int64_t masked = 0;
   for (int y = 0; y < reference.height_px; ++y) {
     if (has_equal_rows(reference, actual, y)) continue;
-    const auto* const a = reference.row(y);
-    const auto* const b = actual.row(y);
-    for (int x = 0; x < reference.width_px; ++x) {
-      if (a[x] == b[x]) continue;
-      if (is_masked(masks, x, y)) {
-        ++masked;
-      } else {
-        take(deltas_of(a[x], b[x]), x, y);
-      }
+    const Word* const a = reference.row(y);
+    const Word* const b = actual.row(y);
+    find_deltas(a, b, deltas);
+    for (std::size_t x = 0; ignores_transparent && x < deltas.size(); ++x) {
+      if (sample_of(a[x] | b[x], 3) == 0) deltas[x] = 0;
     }
+    masked += clear_masked(masks, y, deltas);
+    take(y, std::as_const(deltas));
   }
   return masked;
 }
@@ -149,9 +169,9 @@ class OffPixels {
         top_(height_px),
         is_off_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {}
 
-  void add(int x, int y) {
-    is_off_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
-            static_cast<std::size_t>(x)] = 1;
+  /// @param is_off  of each pixel of the row, 1 or 0
+  void add(int y, const std::vector<std::uint8_t>& is_off) {
+    std::ranges::copy(is_off, is_off_.begin() + std::ptrdiff_t{y} * width_px_);
     top_ = std::min(top_, y);
     bottom_ = std::max(bottom_, y);
   }
@@ -211,6 +231,8 @@ void check_tolerance(const Tolerance& tolerance) {
   const bool is_valid =
       is_level(tolerance.max_delta) && is_level(tolerance.hard_delta) &&
       tolerance.max_pixels >= 0 &&
+      (!tolerance.max_share || (*tolerance.max_share >= 0 && *tolerance.max_share <= 1)) &&
+      (!tolerance.threshold || (*tolerance.threshold >= 0 && *tolerance.threshold <= 1)) &&
       (!tolerance.window || (tolerance.window->side_px >= 1 && tolerance.window->max_pixels >= 0));
   if (!is_valid) throw UsageError("compare: the tolerance is out of range");
 }
@@ -220,6 +242,78 @@ int levels_of(const Rational& delta, int max_level) {
   return static_cast<int>(floor(delta * max_level / 255).get_si());
 }
 
+/// Counts what differs, row by row.
+template <typename Rows>
+class Counter {
+ public:
+  Counter(const Rows& reference, const Rows& actual, const Tolerance& tolerance)
+      : reference_(reference),
+        actual_(actual),
+        max_delta_(levels_of(tolerance.max_delta, reference.max_level)),
+        is_off_(static_cast<std::size_t>(reference.width_px)) {
+    if (tolerance.threshold) {
+      perceptual_.emplace(reference, actual, *tolerance.threshold, !tolerance.counts_smoothing);
+    }
+    result_.max_level = reference.max_level;
+  }
+
+  template <typename Level>
+  void take(int y, const std::vector<Level>& deltas) {
+    // Loops without a branch become vector instructions.
+    std::int32_t different = 0;
+    Level largest = 0;
+    for (const Level delta : deltas) {
+      different += delta != 0 ? 1 : 0;
+      largest = std::max(largest, delta);
+    }
+    if (different == 0) return;
+    if (result_.different_pixels == 0) result_.first = first_of(y, deltas);
+    result_.different_pixels += different;
+    result_.largest_delta = std::max(result_.largest_delta, int{largest});
+    const std::int64_t off = mark_off(y, deltas);
+    if (off == 0) return;
+    result_.off_pixels += off;
+    if (!off_) off_.emplace(reference_.width_px, reference_.height_px);
+    off_->add(y, is_off_);
+  }
+  Difference finish(int window_px) {
+    if (off_) off_->find_densest(window_px, result_);
+    return result_;
+  }
+
+ private:
+  template <typename Level>
+  SamplePlace first_of(int y, const std::vector<Level>& deltas) const {
+    const auto x =
+        std::ranges::find_if(deltas, [](Level delta) { return delta != 0; }) - deltas.begin();
+    const auto changed = reference_.row(y)[x] ^ actual_.row(y)[x];
+    constexpr std::array<std::size_t, 4> kPlaces = {2, 1, 0, 3};  // of red, green, blue and alpha
+    const auto channel = std::ranges::find_if(
+        kPlaces, [&](std::size_t place) { return sample_of(changed, place) != 0; });
+    return {static_cast<int>(x), y, static_cast<int>(channel - kPlaces.begin())};
+  }
+  /// @returns how many pixels of the row are off, which is_off_ says of each.
+  template <typename Level>
+  std::int64_t mark_off(int y, const std::vector<Level>& deltas) {
+    const auto max_delta = static_cast<Level>(max_delta_);
+    std::int32_t off = 0;
+    for (std::size_t x = 0; x < deltas.size(); ++x) {
+      is_off_[x] = perceptual_ ? deltas[x] != 0 && perceptual_->is_off(static_cast<int>(x), y)
+                               : deltas[x] > max_delta;
+      off += is_off_[x];
+    }
+    return off;
+  }
+
+  const Rows& reference_;
+  const Rows& actual_;
+  int max_delta_;
+  std::optional<Perceptual<Rows>> perceptual_;
+  std::vector<std::uint8_t> is_off_;  // of a row
+  std::optional<OffPixels> off_;      // most frames need none
+  Difference result_;
+};
+
 template <typename Rows>
 Difference compare_pictures(const Rows& reference, const Rows& actual, const Tolerance& tolerance,
                             std::span<const PixelRect> masks) {
@@ -228,41 +322,33 @@ Difference compare_pictures(const Rows& reference, const Rows& actual, const Tol
     throw UsageError(fmt::format("compare: the masks leave nothing of a picture of {}x{}",
                                  reference.width_px, reference.height_px));
   }
-  const int max_level = reference.max_level;
-  const int max_delta = levels_of(tolerance.max_delta, max_level);
-  Difference result;
-  result.max_level = max_level;
-  std::optional<OffPixels> off;  // most frames need none
-  result.masked_pixels = for_each_difference(
-      reference, actual, masks, [&](const std::array<int, 4>& deltas, int x, int y) {
-        if (result.different_pixels++ == 0) {
-          const auto channel = std::ranges::find_if(deltas, [](int delta) { return delta > 0; });
-          result.first = {x, y, static_cast<int>(channel - deltas.begin())};
-        }
-        const int largest = std::ranges::max(deltas);
-        result.largest_delta = std::max(result.largest_delta, largest);
-        if (largest <= max_delta) return;
-        ++result.off_pixels;
-        if (!off) off.emplace(reference.width_px, reference.height_px);
-        off->add(x, y);
-      });
-  if (off) off->find_densest(tolerance.window.value_or(Window{}).side_px, result);
-  result.is_accepted = result.off_pixels <= tolerance.max_pixels &&
-                       result.largest_delta <= levels_of(tolerance.hard_delta, max_level) &&
-                       (!tolerance.window || result.densest_off <= tolerance.window->max_pixels);
+  Counter counter(reference, actual, tolerance);
+  const std::int64_t masked =
+      for_each_difference(reference, actual, masks, tolerance.ignores_transparent,
+                          [&](int y, const auto& deltas) { counter.take(y, deltas); });
+  Difference result = counter.finish(tolerance.window.value_or(Window{}).side_px);
+  result.masked_pixels = masked;
+  const Rational pixels = Rational(reference.width_px) * reference.height_px;
+  result.is_accepted =
+      result.off_pixels <= tolerance.max_pixels &&
+      (!tolerance.max_share || result.off_pixels <= *tolerance.max_share * pixels) &&
+      result.largest_delta <= levels_of(tolerance.hard_delta, reference.max_level) &&
+      (!tolerance.window || result.densest_off <= tolerance.window->max_pixels);
   return result;
 }
 
 template <typename Rows>
 std::vector<std::uint8_t> largest_deltas(const Rows& reference, const Rows& actual,
-                                         std::span<const PixelRect> masks) {
-  const auto width = static_cast<std::size_t>(reference.width_px);
+                                         std::span<const PixelRect> masks,
+                                         bool ignores_transparent) {
   const int max_level = reference.max_level;
+  const auto width = static_cast<std::size_t>(reference.width_px);
   std::vector<std::uint8_t> largest(width * static_cast<std::size_t>(reference.height_px));
   for_each_difference(
-      reference, actual, masks, [&](const std::array<int, 4>& deltas, int x, int y) {
-        largest[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-            static_cast<std::uint8_t>((std::ranges::max(deltas) * 255 + max_level - 1) / max_level);
+      reference, actual, masks, ignores_transparent, [&](int y, const auto& deltas) {
+        std::ranges::transform(deltas, largest.begin() + y * std::ssize(deltas), [&](int delta) {
+          return static_cast<std::uint8_t>((delta * 255 + max_level - 1) / max_level);
+        });
       });
   return largest;
 }
@@ -280,23 +366,27 @@ Difference compare(const DeepImage& reference, const DeepImage& actual, const To
 }
 
 std::vector<std::uint8_t> pixel_deltas(const Image& reference, const Image& actual,
-                                       std::span<const PixelRect> masks) {
-  return largest_deltas(picture_of(reference.view()), picture_of(actual.view()), masks);
+                                       std::span<const PixelRect> masks, bool ignores_transparent) {
+  return largest_deltas(picture_of(reference.view()), picture_of(actual.view()), masks,
+                        ignores_transparent);
 }
 
 std::vector<std::uint8_t> pixel_deltas(const DeepImage& reference, const DeepImage& actual,
-                                       std::span<const PixelRect> masks) {
-  return largest_deltas(picture_of(reference), picture_of(actual), masks);
+                                       std::span<const PixelRect> masks, bool ignores_transparent) {
+  return largest_deltas(picture_of(reference), picture_of(actual), masks, ignores_transparent);
 }
 
 Difference compare(const PackedImage& reference, const PackedImage& actual,
                    const Tolerance& tolerance, std::span<const PixelRect> masks) {
+  if (tolerance.threshold) {  // looks at the rows around, too
+    return compare(unpacked(reference).view(), unpacked(actual).view(), tolerance, masks);
+  }
   return compare_pictures(picture_of(reference), picture_of(actual), tolerance, masks);
 }
 
 std::vector<std::uint8_t> pixel_deltas(const PackedImage& reference, const PackedImage& actual,
-                                       std::span<const PixelRect> masks) {
-  return largest_deltas(picture_of(reference), picture_of(actual), masks);
+                                       std::span<const PixelRect> masks, bool ignores_transparent) {
+  return largest_deltas(picture_of(reference), picture_of(actual), masks, ignores_transparent);
 }
 
 }  // namespace piblocks

@@ -28,51 +28,38 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// The masks, and which of them cover a part of a picture.
-class Masks {
- public:
-  explicit Masks(const std::vector<PixelRect>& masks) : masks_(masks), has_met_(masks.size()) {}
-
-  void meet(const PictureSize& size) {
-    has_picture_ = true;
-    for (std::size_t i = 0; i < masks_.size(); ++i) {
-      const PixelRect& mask = masks_[i];
-      if (mask.x_px < size.width_px && mask.y_px < size.height_px) has_met_[i] = true;
-    }
-  }
-  /// @throws UsageError if one lies outside of every picture.
-  void check() const {
-    if (!has_picture_) return;
-    for (std::size_t i = 0; i < masks_.size(); ++i) {
-      if (has_met_[i]) continue;
-      const PixelRect& mask = masks_[i];
-      throw UsageError(fmt::format(
-          "compare: the mask {}x{}+{}+{} lies outside of every picture that is compared",
-          mask.width_px, mask.height_px, mask.x_px, mask.y_px));
-    }
-  }
-
- private:
-  const std::vector<PixelRect>& masks_;
-  std::vector<bool> has_met_;
-  bool has_picture_ = false;
-};
-
 /// Takes compared pairs in their order.
 class PairTaker {
  public:
-  PairTaker(const ComparisonJob& job, Rows& rows) : rows_(rows), masks_(job.masks) {}
+  PairTaker(const ComparisonJob& job, Rows& rows)
+      : job_(job), rows_(rows), hides_(job.masks.size()) {}
 
   void take(ComparedPair pair) {
-    if (pair.size) masks_.meet(*pair.size);
+    is_compared_ |= pair.is_compared;
+    for (const std::size_t mask : pair.masks) hides_[mask] = true;
     rows_.take(std::move(pair.row), pair.has_reference, pair.has_actual);
   }
-  /// @throws UsageError as Masks::check()
-  void finish() const { masks_.check(); }
+  /// @throws UsageError if a mask lies outside of every picture.
+  void finish() const {
+    if (!is_compared_) return;
+    for (std::size_t i = 0; i < hides_.size(); ++i) {
+      if (hides_[i]) continue;
+      const Mask& mask = job_.masks[i];
+      throw UsageError(
+          mask.picture.empty()
+              ? fmt::format("compare: the mask {} lies outside of every picture that is compared",
+                            mask.text)
+              : fmt::format("compare: the mask {} hides nothing: no picture that is compared has "
+                            "this name, and reaches there",
+                            mask.text));
+    }
+  }
 
  private:
+  const ComparisonJob& job_;
   Rows& rows_;
-  Masks masks_;
+  std::vector<bool> hides_;  // of each mask: a part of some picture
+  bool is_compared_ = false;
 };
 
 /// Compares frame by frame. Both sides are read at once, since reading is nearly all of the work.

@@ -1,10 +1,13 @@
 #include "golden/frame_pair.hpp"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <functional>
+#include <system_error>
+#include <tuple>
 #include <type_traits>
 #include <variant>
 
@@ -74,6 +77,14 @@ std::function<Image()> picture_of(const std::shared_ptr<FrameReader>& frame) {
   };
 }
 
+/// Starting one takes as long as reading a small file.
+bool is_worth_a_thread(const fs::path& path) {
+  constexpr std::uintmax_t kLeast_bytes = std::uintmax_t{32} << 10;
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return !error && size >= kLeast_bytes;
+}
+
 ComparedPair equal_pair(const ListedPicture& reference, const ListedPicture& actual) {
   ComparedPair result{.row = {}, .has_reference = true, .has_actual = true};
   result.row.name = both_names(name_of(reference), name_of(actual));
@@ -89,9 +100,15 @@ ComparedPair equal_pair(const ListedPicture& reference, const ListedPicture& act
 /// The samples of two frames at one step, as they are compared.
 class SamplePair {
  public:
-  SamplePair(Fetched reference, Fetched actual)
+  /// @param as_rgb  whether videos are converted to RGB in any case
+  SamplePair(Fetched reference, Fetched actual, bool as_rgb)
       : reference_(std::move(reference)), actual_(std::move(actual)) {
-    is_yuv_ = is_exact() && reference_.frame->layout() != kRgba;
+    const std::string layout = reference_.frame->layout();
+    const bool is_exact = layout == actual_.frame->layout() && (layout == kRgba || !as_rgb);
+    is_yuv_ = is_exact && layout != kRgba;
+    const auto samples_of = [&](FrameReader& frame) {
+      return std::make_shared<AnyImage>(is_exact ? frame.samples() : frame.rgb());
+    };
     expected_ = samples_of(*reference_.frame);
     found_ = samples_of(*actual_.frame);
   }
@@ -149,11 +166,7 @@ class SamplePair {
         },
         samples);
   }
-  bool is_exact() const { return reference_.frame->layout() == actual_.frame->layout(); }
   int max_level() const { return max_level_of(*expected_); }
-  Samples samples_of(FrameReader& frame) const {
-    return std::make_shared<AnyImage>(is_exact() ? frame.samples() : frame.rgb());
-  }
   AnyImage at_depth(const AnyImage& image) const {
     const int level = std::max(max_level(), max_level_of(*found_));
     if (level == 255) return flattened(image);
@@ -176,8 +189,44 @@ const Picture& comparable(const Picture& image) {
   return image;
 }
 
-void compare_samples(const std::shared_ptr<SamplePair>& pair, const ComparisonJob& job,
+/// Whether a mask is about one of these pictures.
+bool concerns(const Mask& mask, const Fetched& reference, const Fetched& actual) {
+  const auto fits = [&](const std::string& name) {
+    return ::fnmatch(mask.picture.c_str(), name.c_str(), 0) == 0;
+  };
+  return mask.picture.empty() || fits(reference.name) || fits(actual.name);
+}
+
+/// @throws UsageError if a mask that is a picture is of another size
+void check_size(const Mask& mask, const PictureSize& size, const std::string& name) {
+  if (!mask.whole || PictureSize{mask.whole->width_px, mask.whole->height_px} == size) return;
+  throw UsageError(fmt::format("compare: the mask {} is {}x{}, and '{}' is {}x{}", mask.text,
+                               mask.whole->width_px, mask.whole->height_px, name, size.width_px,
+                               size.height_px));
+}
+
+/// The masks of the job that concern a pair; notes in the result those that hide a part of it.
+std::vector<PixelRect> masks_of(const ComparisonJob& job, const Fetched& reference,
+                                const Fetched& actual, const PictureSize& size,
+                                ComparedPair& result) {
+  std::vector<PixelRect> rects;
+  for (std::size_t i = 0; i < job.masks.size(); ++i) {
+    const Mask& mask = job.masks[i];
+    if (!concerns(mask, reference, actual)) continue;
+    check_size(mask, size, result.row.name);
+    rects.insert(rects.end(), mask.rects.begin(), mask.rects.end());
+    const auto hides = [&](const PixelRect& r) {
+      return r.x_px < size.width_px && r.y_px < size.height_px;
+    };
+    if (std::ranges::any_of(mask.rects, hides)) result.masks.push_back(i);
+  }
+  return rects;
+}
+
+void compare_samples(Fetched reference, Fetched actual, const ComparisonJob& job,
                      ComparedPair& result) {
+  const bool as_rgb = job.tolerance.threshold.has_value();
+  const auto pair = std::make_shared<SamplePair>(reference, actual, as_rgb);
   FrameComparison& row = result.row;
   row.is_yuv = pair->is_yuv();
   row.reference = [pair] { return pair->reference_picture(); };
@@ -186,17 +235,20 @@ void compare_samples(const std::shared_ptr<SamplePair>& pair, const ComparisonJo
   row.outcome = Outcome::mismatch;
   result.held_bytes = pair->held_bytes();
   if (!row.problem.empty()) return;
-  result.size = pair->size();
+  result.is_compared = true;
+  const auto masks = masks_of(job, reference, actual, pair->size(), result);
   pair->unify();
   row.difference = pair->apply([&](const auto& a, const auto& b) {
-    return compare(comparable(a), comparable(b), job.tolerance, job.masks);
+    return compare(comparable(a), comparable(b), job.tolerance, masks);
   });
   const bool is_same = row.difference->is_equal() && row.difference->masked_pixels == 0;
   row.outcome = is_same                       ? Outcome::equal
                 : row.difference->is_accepted ? Outcome::accepted
                                               : Outcome::different;
-  row.deltas = [pair, masks = job.masks] {
-    return pair->apply([&](const auto& a, const auto& b) { return pixel_deltas(a, b, masks); });
+  row.deltas = [pair, masks, ignores_transparent = job.tolerance.ignores_transparent] {
+    return pair->apply([&](const auto& a, const auto& b) {
+      return pixel_deltas(a, b, masks, ignores_transparent);
+    });
   };
 }
 
@@ -207,8 +259,11 @@ Fetched fetch_picture(const ListedPicture& picture) { return decoded(picture, fi
 ComparedPair compare_pictures(const ListedPicture& reference, const ListedPicture& actual,
                               bool in_threads, const ComparisonJob& job) {
   using Side = std::pair<const ListedPicture*, Bytes>;
-  Side a(&reference, file_of(reference));
-  Side b(&actual, file_of(actual));
+  Side a(&reference, {});
+  Side b(&actual, {});
+  in_threads = in_threads && is_worth_a_thread(reference.path);
+  std::tie(a.second, b.second) =
+      on_two_threads(in_threads, a, b, [](const Side& side) { return file_of(*side.first); });
   if constexpr (kReadsPackedPng) {
     const bool may_be_equal = job.masks.empty() && a.second == b.second;
     if (may_be_equal && is_whole_png(std::move(b.second))) return equal_pair(reference, actual);
@@ -225,8 +280,7 @@ ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJ
   row.name = row_name(reference, actual);
   if (reference.is_read() && actual.is_read()) {
     try {
-      compare_samples(std::make_shared<SamplePair>(std::move(reference), std::move(actual)), job,
-                      result);
+      compare_samples(std::move(reference), std::move(actual), job, result);
     } catch (const MediaError& error) {
       add_unreadable(row, error.what());
     }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "golden/picture_list.hpp"
 #include "media/pixels/frame_reader.hpp"
@@ -37,8 +38,9 @@ struct ComparedPair {
   FrameComparison row;
   bool has_reference = false;
   bool has_actual = false;
-  std::optional<PictureSize> size = {};  ///< of both, if there are masks that may lie in them
-  std::size_t held_bytes = 0;            ///< by the functions, about
+  bool is_compared = false;
+  std::vector<std::size_t> masks = {};  ///< of the job, that hide a part of the pictures
+  std::size_t held_bytes = 0;           ///< by the functions, about
 };
 
 /// @throws UsageError as compare()

@@ -116,7 +116,7 @@ void compare_hashes(const ComparisonJob& job, Rows& rows) {
   if (!is_framehash(job.reference) || !is_framehash(job.actual)) {
     throw UsageError("compare: hashes of frames can be compared with hashes only");
   }
-  if (!job.tolerance.is_exact() || !job.masks.empty()) {
+  if (job.tolerance != Tolerance() || !job.masks.empty()) {
     throw UsageError("compare: hashes of frames know no tolerance and no masks");
   }
   FrameComparison unreadable;

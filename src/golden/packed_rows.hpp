@@ -16,6 +16,7 @@ Difference compare(const PackedImage& reference, const PackedImage& actual,
                    const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
 
 std::vector<std::uint8_t> pixel_deltas(const PackedImage& reference, const PackedImage& actual,
-                                       std::span<const PixelRect> masks = {});
+                                       std::span<const PixelRect> masks = {},
+                                       bool ignores_transparent = false);
 
 }  // namespace piblocks

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 #include <cstring>
 #include <span>
@@ -307,27 +308,26 @@ void PackedImage::unpack_row(int y, std::uint32_t* words) const {
   constexpr std::uint32_t kOpaque = 0xff000000;
   constexpr std::uint32_t kGrey = 0x010101;
   const std::uint8_t* const from = row(y);
-  const auto color = [](const std::uint8_t* p) {
-    return std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
+  // Four bytes at once, for RGB with a byte of the next pixel or of what lies behind the rows.
+  const auto word_at = [](const std::uint8_t* p) {
+    return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | p[3];
   };
-  for (int x = 0; x < width_px; ++x) {
-    switch (packing) {  // outside of the loop, once it is compiled
-      case Packing::grey:
-        words[x] = kOpaque | kGrey * from[x];
-        break;
-      case Packing::palette:
-        words[x] = palette[from[x]];
-        break;
-      case Packing::grey_alpha:
-        words[x] = std::uint32_t{from[2 * x + 1]} << 24 | kGrey * from[2 * x];
-        break;
-      case Packing::rgb:
-        words[x] = kOpaque | color(from + 3 * x);
-        break;
-      case Packing::rgba:
-        words[x] = std::uint32_t{from[4 * x + 3]} << 24 | color(from + 4 * x);
-        break;
-    }
+  const auto each = [&](const auto& word_of) {
+    for (std::ptrdiff_t x = 0; x < width_px; ++x) words[x] = word_of(x);
+  };
+  switch (packing) {
+    case Packing::grey:
+      return each([&](std::ptrdiff_t x) { return kOpaque | kGrey * from[x]; });
+    case Packing::palette:
+      return each([&](std::ptrdiff_t x) { return palette[from[x]]; });
+    case Packing::grey_alpha:
+      return each([&](std::ptrdiff_t x) {
+        return std::uint32_t{from[2 * x + 1]} << 24 | kGrey * from[2 * x];
+      });
+    case Packing::rgb:
+      return each([&](std::ptrdiff_t x) { return kOpaque | word_at(from + 3 * x) >> 8; });
+    case Packing::rgba:
+      return each([&](std::ptrdiff_t x) { return std::rotr(word_at(from + 4 * x), 8); });
   }
 }
 
