@@ -28,8 +28,11 @@ void end_png_chunk(Bytes& png, std::size_t start);
 /// A whole chunk.
 void append_png_chunk(Bytes& png, std::string_view type, ByteSpan data = {});
 
-/// Signature and header of a picture with 8 bits a sample, RGB or RGBA.
-void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha);
+/// What a sample of 8 bits is (PNG specification, table 11.1).
+enum class PngColors : std::uint8_t { rgb = 2, palette = 3, rgba = 6 };
+
+/// Signature and header of a picture with 8 bits a sample.
+void append_png_header(Bytes& png, int width_px, int height_px, PngColors colors);
 /// The chunk that says that colours are sRGB.
 void append_png_srgb(Bytes& png);
 
@@ -51,6 +54,13 @@ void append_up_filtered(Bytes& rows, int count, std::size_t row_bytes, const Pac
 /// Encodes a picture as read_png_samples() returns it, with straight alpha; without alpha if all of
 /// it is opaque. @throws MediaError as encode_png()
 Bytes encode_png_samples(const Image& picture);
+
+/// Encodes a picture of at most 256 colours.
+/// @param palette  words 0xRRGGBB
+/// @param indices  of the colours, row by row
+/// @throws MediaError as encode_png()
+Bytes encode_png_palette(int width_px, std::span<const std::uint32_t> palette,
+                         std::span<const std::uint8_t> indices);
 
 /// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table
 /// in tests/benchmark/encoders.md. Used by one thread at a time.

@@ -59,7 +59,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
     }
     Bytes png;
     png.reserve(size);
-    append_png_header(png, width_px_, height_px_, has_alpha_);
+    append_png_header(png, width_px_, height_px_, has_alpha_ ? PngColors::rgba : PngColors::rgb);
     append_png_srgb(png);
     uLong checksum = 1;
     for (std::size_t i = 0; i < strips_.size(); ++i) {
@@ -221,6 +221,17 @@ class PngSequence final : public FrameSink {
   std::int64_t left_ = 0;     // other files that have the next numbers
 };
 
+/// A file of rows that are filtered. @param palette  none if empty
+Bytes with_rows(int width_px, int height_px, PngColors colors, ByteSpan palette, ByteSpan rows) {
+  Bytes png;
+  append_png_header(png, width_px, height_px, colors);
+  append_png_srgb(png);
+  if (!palette.empty()) append_png_chunk(png, "PLTE", palette);
+  append_png_chunk(png, "IDAT", Deflater(Deflater::Form::whole).compress(rows));
+  append_png_chunk(png, "IEND");
+  return png;
+}
+
 }  // namespace
 
 Bytes encode_png(const ImageView& image) {
@@ -243,12 +254,21 @@ Bytes encode_png_samples(const Image& picture) {
           for (const int shift : {16, 8, 0, 24}) *to++ = std::uint8_t(word >> shift);
         }
       });
-  Bytes png;
-  append_png_header(png, picture.width_px, picture.height_px, true);
-  append_png_srgb(png);
-  append_png_chunk(png, "IDAT", Deflater(Deflater::Form::whole).compress(rows));
-  append_png_chunk(png, "IEND");
-  return png;
+  return with_rows(picture.width_px, picture.height_px, PngColors::rgba, {}, rows);
+}
+
+Bytes encode_png_palette(int width_px, std::span<const std::uint32_t> palette,
+                         std::span<const std::uint8_t> indices) {
+  const auto row_bytes = std::size_t(width_px);
+  const int height_px = int(indices.size() / row_bytes);
+  Bytes rows;
+  rows.reserve(indices.size() + std::size_t(height_px));
+  append_up_filtered(rows, height_px, row_bytes, [&](int row, std::uint8_t* to) {
+    std::ranges::copy(indices.subspan(std::size_t(row) * row_bytes, row_bytes), to);
+  });
+  Bytes colors;
+  for (const std::uint32_t color : palette) append_big_endian(colors, color, 3);
+  return with_rows(width_px, height_px, PngColors::palette, colors, rows);
 }
 
 Output png_output(const OutputRequest& request) {
