@@ -187,6 +187,9 @@ class FrameComparer {
       row.name =
           (is_pair ? found.problem.empty() : expected.is_there) ? reference.name() : actual.name();
     }
+    row.key = expected.is_there ? reference.key() : actual.key();
+    if (expected.is_read()) row.reference_path = reference.path();
+    if (found.is_read()) row.actual_path = actual.path();
     if (expected.is_read() && found.is_read())
       return compare(row, reference.frame(), actual.frame());
     if (expected.is_read()) row.reference = picture_of(reference.frame());
@@ -229,6 +232,7 @@ class FrameComparer {
     row.outcome = Outcome::mismatch;
     if (row.problem.empty()) {
       masks_.meet(size);
+      row.width_px = size.width_px;
       pair = at_one_depth(std::move(pair));
       compare_samples(row, pair);
       row.deltas = [&] {

@@ -33,6 +33,7 @@ class PictureSide final : public FrameSide {
     const ListedPicture& picture = pictures_[fetched_ - 1].picture;
     return picture.name.empty() ? picture.path.string() : picture.name;
   }
+  std::string path() const override { return pictures_[fetched_ - 1].picture.path; }
   bool goes_on_after_failure() const override { return true; }
   FrameReader& frame() override { return *reader_; }
 
@@ -59,12 +60,15 @@ class VideoSide final : public FrameSide {
   }
   std::string name() const override {
     if (!reader_) return fs::path(path_).filename();
-    return fmt::format("frame {}", is_over_ ? fetched_ : fetched_ - 1);
+    return fmt::format("frame {}", number());
   }
+  std::string key() const override { return reader_ ? frame_key(number()) : name(); }
   bool goes_on_after_failure() const override { return false; }
   FrameReader& frame() override { return *reader_; }
 
  private:
+  std::int64_t number() const { return is_over_ ? fetched_ : fetched_ - 1; }
+
   std::string path_;
   std::stop_token stop_;
   std::unique_ptr<FrameReader> reader_;

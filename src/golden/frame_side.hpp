@@ -3,6 +3,8 @@
 // Out: the frames, read when they are fetched.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,6 +17,9 @@
 
 namespace piblocks {
 
+/// The key of a frame of a video.
+inline std::string frame_key(std::int64_t number) { return fmt::format("frame-{:06}", number); }
+
 class FrameSide {
  public:
   virtual ~FrameSide() = default;
@@ -26,6 +31,10 @@ class FrameSide {
   virtual bool fetch() = 0;
   /// The name of the last frame that was fetched, even if it could not be read.
   virtual std::string name() const = 0;
+  /// The same for file names.
+  virtual std::string key() const { return name(); }
+  /// The PNG file that is this frame; empty in a video.
+  virtual std::string path() const { return {}; }
   /// Whether frames after one that cannot be read can be fetched.
   virtual bool goes_on_after_failure() const = 0;
   /// The frame that was fetched: its samples, what they mean, and how players show them.
