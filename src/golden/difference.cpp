@@ -203,13 +203,17 @@ std::vector<PixelRect> changed_regions(std::span<const std::uint8_t> deltas, int
 }
 
 Bytes difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas) {
-  Bytes indices(deltas.size());
-  std::ranges::transform(reference.words, deltas, indices.begin(),
-                         [](std::uint32_t word, std::uint8_t delta) {
-                           const int red = kGreys + (kReds - 1) * delta / 255;
-                           return static_cast<std::uint8_t>(delta == 0 ? pale(word) : red);
-                         });
-  return encode_png_palette(reference.width_px, palette_of_differences(), indices);
+  const auto pack_row = [&](int row, std::uint8_t* to) {
+    const std::ptrdiff_t at = std::ptrdiff_t{row} * reference.width_px;
+    const std::uint32_t* const words = reference.words.data() + at;
+    std::transform(words, words + reference.width_px, deltas.data() + at, to,
+                   [](std::uint32_t word, std::uint8_t delta) {
+                     const int red = kGreys + (kReds - 1) * delta / 255;
+                     return static_cast<std::uint8_t>(delta == 0 ? pale(word) : red);
+                   });
+  };
+  return encode_png_palette(reference.width_px, reference.height_px, palette_of_differences(),
+                            pack_row);
 }
 
 }  // namespace piblocks

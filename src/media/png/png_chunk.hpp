@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -55,12 +56,11 @@ void append_up_filtered(Bytes& rows, int count, std::size_t row_bytes, const Pac
 /// it is opaque. @throws MediaError as encode_png()
 Bytes encode_png_samples(const Image& picture);
 
-/// Encodes a picture of at most 256 colours.
-/// @param palette  words 0xRRGGBB
-/// @param indices  of the colours, row by row
+/// Encodes a picture of at most 256 colours, which are words 0xRRGGBB.
+/// @param pack_row  writes the indices of the colours of a row, from 0
 /// @throws MediaError as encode_png()
-Bytes encode_png_palette(int width_px, std::span<const std::uint32_t> palette,
-                         std::span<const std::uint8_t> indices);
+Bytes encode_png_palette(int width_px, int height_px, std::span<const std::uint32_t> palette,
+                         const std::function<void(int row, std::uint8_t* indices)>& pack_row);
 
 /// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table
 /// in tests/benchmark/encoders.md. Used by one thread at a time.
