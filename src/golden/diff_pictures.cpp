@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <ranges>
 #include <system_error>
 #include <utility>
 
@@ -21,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kLabel = "differences";
+constexpr const char* kUnfinished = "differences.unfinished-";  // as Unfinished names its folder
 
 bool is_picture_name(const std::string& name) {
   constexpr std::array kKinds = {kExpected, kActual, kDiff};
@@ -36,7 +36,7 @@ std::vector<fs::path> marked_pictures(const fs::path& folder) {
   for (fs::recursive_directory_iterator at(folder, kOptions, error), end; !error && at != end;
        at.increment(error)) {
     const std::string name = at->path().filename();
-    if (name.starts_with(kLabel) && at->is_directory(error)) at.disable_recursion_pending();
+    if (name.starts_with(kUnfinished)) at.disable_recursion_pending();
     if (is_picture_name(name) && has_png_mark(*at, PngMark::difference)) paths.push_back(*at);
   }
   return paths;
@@ -137,11 +137,11 @@ void DiffPictures::finish() {
     const fs::path name = path.lexically_relative(folder_);
     if (!is_new(name)) files_of(name).remove(name.filename());
   }
-  for (auto& [subfolder, files] : std::views::reverse(files_)) {
-    files.commit();
+  for (auto files = files_.rbegin(); files != files_.rend(); ++files) {  // subfolders come first
+    files->second.commit();
     std::error_code not_empty;
-    const bool stays = subfolder.empty() && making_ == Making::at_once;
-    if (!stays) fs::remove(folder_ / subfolder, not_empty);
+    const bool stays = files->first.empty() && making_ == Making::at_once;
+    if (!stays) fs::remove(folder_ / files->first, not_empty);
   }
 }
 

@@ -202,7 +202,7 @@ class HtmlReport final : public Report {
   }
 
   void write_sections(std::span<const PixelRect> masks) {
-    file_.write(std::string_view("<svg class=\"masks\"><g id=\"masks\">"));
+    file_.write(std::string_view(R"(<svg class="masks"><g id="masks">)"));
     for (const PixelRect& mask : masks) file_.write(rect_markup("mask", mask));
     file_.write(fmt::format("</g></svg>\n{}", kControls));
     shown_.for_each([this](Outcome outcome, const Section& section) {

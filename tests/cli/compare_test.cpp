@@ -286,6 +286,22 @@ TEST_F(CompareTest, APageInOneFileNeedsNothingElse) {
   EXPECT_TRUE(contains(complaint({"a.png", "b.png", "--report-in-one-file"}, 2), "--report"));
 }
 
+TEST_F(CompareTest, APageReplacesNoPicturesOfOthers) {
+  still("a.png", "1");
+  still("b.png", "2");
+  fs::create_directory(folder_ / "r-files");
+  write("r-files/a-diff.png", "mine");
+  EXPECT_TRUE(
+      contains(complaint({"a.png", "b.png", "--report", "r.html"}, 2), "'r-files/a-diff.png'"));
+  EXPECT_EQ(names_in("r-files"), (Names{"a-diff.png"}));
+  EXPECT_EQ(contents("r-files/a-diff.png"), "mine");
+  EXPECT_FALSE(fs::exists(folder_ / "r.html"));
+  still("r-files/x.png", "1");
+  const CommandResult inside = compare({"r-files/x.png", "b.png", "--report", "r.html"});
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_TRUE(contains(inside.err, "--report 'r-files': would write over the reference"));
+}
+
 TEST_F(CompareTest, JsonHasTheNumbersOfEveryRow) {
   render("a/%04d.png");
   fs::copy(folder_ / "a", folder_ / "b");

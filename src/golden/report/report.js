@@ -71,11 +71,10 @@ function jump(step) {
     for (const svg of one.querySelectorAll("svg")) svg.querySelectorAll(".change")[i].classList.add("current");
     const [x, y, width, height] = ["x", "y", "width", "height"].map(name => +rect.getAttribute(name));
     const [across, down] = rect.ownerSVGElement.getAttribute("viewBox").split(" ").slice(2);
-    const most = 8 * across / one.querySelector(".pane").clientWidth;  // 8 times as large
-    view(one, Math.min(most, across / width / 3, down / height / 3), (x + width / 2) / across,
+    const pane = one.querySelector(".pane").clientWidth;
+    view(one, Math.min(8 * across / pane, across / width / 3, down / height / 3), (x + width / 2) / across,
          (y + height / 2) / down);
     const slider = one.querySelector("input[type=range]");  // so that both sides of the change are seen
-    const pane = one.querySelector(".pane").clientWidth;
     slider.value = 100 * ((x + width / 2) / across * one.zoom + one.shift[0] / pane);
     slider.dispatchEvent(new Event("input"));
   }
@@ -105,7 +104,9 @@ for (const one of frames) {
   pictures.addEventListener("wheel", event => {
     if (!event.ctrlKey) return;
     event.preventDefault();
-    change(event.deltaY < 0 ? 1.25 : .8);
+    const factor = event.deltaY < 0 ? 1.25 : .8;  // what is below the pointer stays there
+    const { x, y, width, height } = event.target.closest(".pane").getBoundingClientRect();
+    change(factor, (event.clientX - x - width / 2) * (1 - 1 / factor), (event.clientY - y - height / 2) * (1 - 1 / factor));
   }, { passive: false });
 }
 update();
