@@ -132,11 +132,17 @@ const char* name_of(Outcome outcome);
 struct FrameComparison {
   std::int64_t number = 0;  ///< of the row, from 0
   std::string name;         ///< for people: of the reference's frame and, if other, of the actual
+  /// The reference's frame, or the actual one if it is the only one: "sub/7.png", "frame-000012".
+  std::string key;
   Outcome outcome = Outcome::equal;
   std::string problem;  ///< why the frame is a mismatch or unreadable; else empty
+  int width_px = 0;     ///< of the pictures, if they were compared
+  std::vector<PixelRect> masks;  ///< that concern them
   bool is_yuv = false;  ///< whether the samples are Y, Cb and Cr
   /// Nothing where only hashes are known, and where there is nothing to compare.
   std::optional<Difference> difference;
+  std::string reference_path;  ///< of the PNG file that is the frame; else empty
+  std::string actual_path;     ///< the same
   /// The pictures as they are shown, with alpha; empty functions where there is none. A picture
   /// whose colours are not known has no pixels.
   std::function<Image()> reference;

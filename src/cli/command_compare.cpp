@@ -11,6 +11,7 @@
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/text.hpp"
+#include "golden/diff_pictures.hpp"
 #include "golden/mask_picture.hpp"
 #include "golden/picture_list.hpp"
 #include "golden/reports.hpp"
@@ -127,13 +128,20 @@ ComparisonJob job_of(const Command& options) {
   return job;
 }
 
+ReportForm form_of_report(const Command& options) {
+  return options.is_given("--report-in-one-file") ? ReportForm::one_file : ReportForm::with_folder;
+}
+
 /// The reports that were asked for. A report that fails does not stop the others.
 class Reports {
  public:
   explicit Reports(const Command& options) {
     if (const auto name = options.text("--diff")) reports_.push_back(diff_folder(*name));
-    if (const auto name = options.text("--report")) reports_.push_back(html_report(*name));
+    if (const auto name = options.text("--report")) {
+      reports_.push_back(html_report(*name, form_of_report(options)));
+    }
     if (const auto name = options.text("--junit")) reports_.push_back(junit_report(*name));
+    if (const auto name = options.text("--json")) reports_.push_back(json_report(*name));
   }
 
   void add(const FrameComparison& frame) {
@@ -209,14 +217,22 @@ void check_reports(const Command& options, const ComparisonJob& job) {
   OverwriteCheck check;
   claim_pictures(check, "the reference", job.reference, job.is_recursive);
   claim_pictures(check, "the actual pictures", job.actual, job.is_recursive);
-  if (const auto name = options.text("--diff")) claim_diff_folder(check, *name);
-  for (const char* const option : {"--report", "--junit"}) {
+  if (const auto name = options.text("--diff"))
+    claim_diff_folder(check, "--diff", *name, DiffPictures::Making::at_once);
+  for (const char* const option : {"--report", "--junit", "--json"}) {
     const auto name = options.text(option);
     if (name == "-") {
       throw UsageError(fmt::format(
           "{} -: standard output has the lines of the comparison; name a file", option));
     }
     if (name) check.writes(option, *name);
+  }
+  const auto page = options.text("--report");
+  if (form_of_report(options) == ReportForm::with_folder && page) {
+    claim_diff_folder(check, "--report", folder_of_report(*page),
+                      DiffPictures::Making::when_needed);
+  } else if (!page && options.is_given("--report-in-one-file")) {
+    throw UsageError("--report-in-one-file is about the page of --report; name that");
   }
   if (!options.is_given("--quiet")) check.writes_standard_output();
   check.check();
@@ -273,10 +289,14 @@ void define_compare(Command& command) {
                      "be left of every picture");
   command.add_flag("--no-recursive", "Leave out the folders in a folder");
   command.add_value("--diff", "DIR",
-                    "Write expected, difference and actual, side by side, of frames\n"
-                    "that are different, at most 40");
-  command.add_value("--report", "FILE.html", "Write a page to look at the differences");
+                    "Write NAME-expected.png, NAME-actual.png and NAME-diff.png of\n"
+                    "frames that are different, at most 40");
+  command.add_value("--report", "FILE.html",
+                    "Write a page to look at the differences, with its pictures in\n"
+                    "the folder FILE-files");
+  command.add_flag("--report-in-one-file", "Keep the pictures in the page itself");
   command.add_value("--junit", "FILE.xml", "Write a list of tests, one a row");
+  command.add_value("--json", "FILE.json", "Write numbers and changed places of every row");
   command.add_flag("--quiet", "Print only what cannot be read, and other errors");
   command.set_footer(
       "Pictures are paired by name: those of folders by their paths in these, those of a pattern\n"

@@ -15,7 +15,7 @@
 #include "core/processors.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
-#include "media/output/frame_pattern.hpp"
+#include "golden/frame_side.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;
@@ -96,24 +96,26 @@ class CheckPictures {
   void finish(const std::vector<std::int64_t>& changed, std::vector<std::string>& lines,
               const std::stop_token& stop) {
     const std::size_t kept = pictures_.count();
-    const FramePattern pattern(DiffPictures::kPattern);
     const std::vector<std::int64_t> frames = spread(changed, kMaxShown - kept);
     references_.draw(
         frames,
-        [&](std::int64_t frame, Bytes png) { pictures_.add(pattern.name(frame), std::move(png)); },
+        [&](std::int64_t frame, const Bytes& png) {
+          pictures_.add(frame_key(frame), kActual, png);
+        },
         stop);
-    pictures_.finish([](const std::string& name) { return has_ending(name, ".png"); });
+    pictures_.finish();
     const auto say = [&](const std::string& what) {
       lines.push_back(fmt::format("{}: '{}' has {}", references_.name(), folder_.string(), what));
     };
     if (kept > 0) {
-      say("expected, difference and actual of " + counted(std::int64_t(kept), "picture"));
+      say("expected, actual and difference of " + counted(std::int64_t(kept), "picture"));
     }
     if (frames.empty()) return;
-    say(fmt::format(
-        "the actual picture of {} of {} frames that differ, {} to {}; of the expected "
-        "ones there are only hashes",
-        frames.size(), changed.size(), pattern.name(frames.front()), pattern.name(frames.back())));
+    say(
+        fmt::format("the actual picture of {} of {} frames that differ, {} to {}; of the expected "
+                    "ones there are only hashes",
+                    frames.size(), changed.size(), picture_name(frame_key(frames.front()), kActual),
+                    picture_name(frame_key(frames.back()), kActual)));
   }
 
  private:

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "core/text.hpp"
-#include "golden/reports.hpp"
-#include "media/png/png_chunk.hpp"
+#include "golden/difference.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;
@@ -87,9 +86,9 @@ void GoldenFindings::compare_pictures(const ComparisonJob& job, const std::strin
     if (row.is_accepted()) return;
     show(row.outcome, line_of(file, row));
     if (pictures == nullptr || !row.difference || pictures->count() == kMaxShown) return;
-    const Image strip =
-        difference_strip(row.reference(), row.deltas(), row.actual(), row.difference->densest);
-    pictures->add(file, encode_png_samples(strip));
+    for (const FramePicture& picture : pictures_of(row)) {
+      pictures->add(file, picture.kind, picture.png);
+    }
   };
   compare_files(job, on_row, stop);
 }

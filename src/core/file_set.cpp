@@ -100,6 +100,12 @@ void FileSet::add(const std::string& name, std::span<const std::uint8_t> bytes) 
   if (const int error = file.close()) fail_output("close", final_path, error);
 }
 
+void FileSet::drop(const std::string& name) {
+  std::erase(names_, name);
+  std::error_code ignored;  // it goes with the temporary folder
+  fs::remove(temporary_.path() / kNew / name, ignored);
+}
+
 void FileSet::remove(const std::string& name) {
   check_destination(name);
   removed_.push_back(name);

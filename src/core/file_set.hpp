@@ -33,6 +33,8 @@ class FileSet {
   std::filesystem::path add(const std::string& name);
   /// The same with its contents. @throws IoError also if it cannot be written.
   void add(const std::string& name, std::span<const std::uint8_t> bytes);
+  /// Leaves out a file that has been added.
+  void drop(const std::string& name);
   /// Removes a file when the others take their names. @throws IoError as add().
   void remove(const std::string& name);
   /// Syncs all files and gives them their names.

@@ -83,6 +83,13 @@ FileClaim folder_claim(const std::string& what, const fs::path& folder, FileName
   return claim;
 }
 
+void add_files(FileClaim& claim, const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
+  }
+  std::ranges::sort(claim.files);
+}
+
 /// Whether an output is in a folder that is read with its subfolders, or below it.
 bool is_below(const FileClaim& output, const FileClaim& input) {
   const bool is_inside =
@@ -116,12 +123,8 @@ void OverwriteCheck::reads_folder(const std::string& what, const fs::path& folde
 void OverwriteCheck::reads_tree(const std::string& what, const fs::path& folder,
                                 const std::vector<fs::path>& files, FileNames names) {
   reads_folder(what, folder);
-  FileClaim& claim = inputs_.back();
-  for (const fs::path& file : files) {
-    if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
-  }
-  std::ranges::sort(claim.files);
-  claim.names_below = std::move(names);
+  add_files(inputs_.back(), files);
+  inputs_.back().names_below = std::move(names);
 }
 
 void OverwriteCheck::writes(const std::string& what, const fs::path& file) {
@@ -129,9 +132,11 @@ void OverwriteCheck::writes(const std::string& what, const fs::path& file) {
 }
 
 void OverwriteCheck::writes_some_of(const std::string& what, const std::string& name,
-                                    const fs::path& folder, FileNames names) {
+                                    const fs::path& folder, FileNames names,
+                                    const std::vector<fs::path>& below) {
   outputs_.push_back(folder_claim(what, folder, std::move(names)));
   outputs_.back().path = name;
+  add_files(outputs_.back(), below);
 }
 
 void OverwriteCheck::writes_standard_output() {

@@ -51,9 +51,11 @@ class OverwriteCheck {
 
   void writes(const std::string& what, const std::filesystem::path& file);
   /// Writes files of a folder, with some of these names.
-  /// @param name  of all of them, for messages: "frames/%06d.png".
+  /// @param name   of all of them, for messages: "frames/%06d.png".
+  /// @param below  files in subfolders that are replaced or removed
   void writes_some_of(const std::string& what, const std::string& name,
-                      const std::filesystem::path& folder, FileNames names);
+                      const std::filesystem::path& folder, FileNames names,
+                      const std::vector<std::filesystem::path>& below = {});
   /// Writes to standard output, which may have been redirected to a file.
   void writes_standard_output();
 

@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+
+#include "core/text.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 namespace {
@@ -52,45 +56,55 @@ std::string differing_pixels(const FrameComparison& frame, const Difference& d) 
   return text;
 }
 
-constexpr std::uint32_t kOpaque = 0xff000000;
-constexpr std::uint32_t kGap = 0xff808080;
-constexpr int kGap_px = 8;
+PixelRect around(const PixelRect& one, const PixelRect& other) {
+  const int x = std::min(one.x_px, other.x_px);
+  const int y = std::min(one.y_px, other.y_px);
+  return {x, y, std::max(one.right_px(), other.right_px()) - x,
+          std::max(one.bottom_px(), other.bottom_px()) - y};
+}
+
+/// Rectangles that are farther apart than a distance, which grows with their number.
+class Regions {
+ public:
+  void add(PixelRect rect) {
+    const auto is_near = [&](const PixelRect& other) {
+      const PixelRect both = around(rect, other);
+      return both.width_px < rect.width_px + other.width_px + distance_px_ &&
+             both.height_px < rect.height_px + other.height_px + distance_px_;
+    };
+    for (auto at = rects_.begin(); (at = std::ranges::find_if(rects_, is_near)) != rects_.end();) {
+      rect = around(rect, *at);
+      rects_.erase(at);
+    }
+    rects_.push_back(rect);
+    if (rects_.size() <= kMaxRegions) return;
+    distance_px_ *= 2;
+    for (const PixelRect& old : std::exchange(rects_, {})) add(old);
+  }
+  std::vector<PixelRect> take() { return std::move(rects_); }
+
+ private:
+  int distance_px_ = 16;
+  std::vector<PixelRect> rects_;
+};
+
+constexpr int kGreys = 64;
+constexpr int kReds = 161;
 
 int level(std::uint32_t pixel, int shift) { return static_cast<int>((pixel >> shift) & 0xff); }
 
-std::uint32_t grey(int value) { return kOpaque | static_cast<std::uint32_t>(value) * 0x010101U; }
-
-std::uint32_t pale(std::uint32_t pixel) {
+/// How far a pixel is from white in the picture of differences, 0 … kGreys - 1.
+int pale(std::uint32_t pixel) {
   const int mean = (level(pixel, 16) + 2 * level(pixel, 8) + level(pixel, 0)) / 4;
-  return grey(255 - (255 - mean) * level(pixel, 24) / 255 / 4);
+  return (255 - mean) * level(pixel, 24) / 255 / 4;
 }
 
-/// Red, so that even the least delta can be seen.
-std::uint32_t mark(int delta) {
-  const auto other = static_cast<std::uint32_t>(160 - 160 * delta / 255);
-  return kOpaque | 0xff0000U | other << 8 | other;
-}
-
-Image part_of(const Image& image, int x_px, int width_px) {
-  Image part{width_px, image.height_px, {}};
-  for (int y = 0; y < image.height_px; ++y) {
-    const auto row = image.words.begin() + std::ptrdiff_t{y} * image.width_px + x_px;
-    part.words.insert(part.words.end(), row, row + width_px);
-  }
-  return part;
-}
-
-Image beside_each_other(const std::array<Image, 3>& images) {
-  Image strip{3 * images[0].width_px + 2 * kGap_px, images[0].height_px, {}};
-  for (int y = 0; y < strip.height_px; ++y) {
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      if (i > 0) strip.words.insert(strip.words.end(), kGap_px, kGap);
-      const Image& image = images.at(i);
-      const auto row = image.words.begin() + std::ptrdiff_t{y} * image.width_px;
-      strip.words.insert(strip.words.end(), row, row + image.width_px);
-    }
-  }
-  return strip;
+std::vector<std::uint32_t> palette_of_differences() {
+  std::vector<std::uint32_t> palette;
+  for (std::uint32_t i = 0; i < kGreys; ++i) palette.push_back((255 - i) * 0x010101);
+  // Even the least delta can be seen.
+  for (std::uint32_t i = 0; i < kReds; ++i) palette.push_back(0xff0000 | (kReds - 1 - i) * 0x0101);
+  return palette;
 }
 
 }  // namespace
@@ -144,27 +158,66 @@ std::string summary_text(const ComparisonJob& job, const ComparisonResult& resul
   return text;
 }
 
-Image difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas) {
-  Image picture{reference.width_px, reference.height_px, {}};
-  picture.words.resize(reference.words.size());
-  std::ranges::transform(
-      reference.words, deltas, picture.words.begin(),
-      [](std::uint32_t a, std::uint8_t delta) { return delta == 0 ? pale(a) : mark(delta); });
-  return picture;
+std::string tolerance_text(const ComparisonJob& job) {
+  const Tolerance& tolerance = job.tolerance;
+  std::string text = "Every sample must be equal";
+  if (tolerance.max_delta > 0) {
+    text = fmt::format("Samples may differ by up to {} of 255", to_double(tolerance.max_delta));
+  } else if (tolerance.threshold) {
+    text = fmt::format("Pixels must look alike, by a threshold of {}{}", *tolerance.threshold,
+                       tolerance.counts_smoothing ? "" : ", or be those of smoothed edges");
+  }
+  if (tolerance.max_share) {
+    text +=
+        fmt::format(", except in up to {}% of the pixels", to_double(*tolerance.max_share * 100));
+  } else if (tolerance.max_pixels >= kMaxFrame_px) {
+    text += ", except in any number of pixels";
+  } else if (tolerance.max_pixels > 0) {
+    text += ", except in up to " + counted(tolerance.max_pixels, "pixel");
+  }
+  if (tolerance.window) {
+    text += fmt::format(", up to {0} of any square of {1}x{1}",
+                        counted(tolerance.window->max_pixels, "pixel"), tolerance.window->side_px);
+  }
+  if (tolerance.hard_delta < 255) {
+    text += fmt::format(", and none by more than {}", to_double(tolerance.hard_delta));
+  }
+  if (tolerance.ignores_transparent) text += ". Transparent pixels are equal";
+  const char* separator = ". Masked: ";
+  for (const Mask& mask : job.masks) text += std::exchange(separator, ", ") + mask.text;
+  return text + '.';
 }
 
-Image difference_strip(const Image& reference, const std::vector<std::uint8_t>& deltas,
-                       const Image& actual, const PixelRect& focus) {
-  constexpr std::int64_t kLongest_px = (kMaxSide_px - 2 * kGap_px) / 3;
-  // Three pictures and the gaps in one frame.
-  const std::int64_t most_px = kMaxFrame_px / 3 / reference.height_px - kGap_px;
-  const int width = static_cast<int>(
-      std::clamp<std::int64_t>(std::min(kLongest_px, most_px), 1, reference.width_px));
-  const int centre = focus.x_px + focus.width_px / 2;
-  const int x = std::clamp(centre - width / 2, 0, reference.width_px - width);
-  return beside_each_other({part_of(reference, x, width),
-                            part_of(difference_picture(reference, deltas), x, width),
-                            part_of(actual, x, width)});
+std::vector<PixelRect> changed_regions(std::span<const std::uint8_t> deltas, int width_px) {
+  constexpr std::ptrdiff_t kPiece_px = 16;
+  const auto differs = [](std::uint8_t delta) { return delta != 0; };
+  Regions regions;
+  for (auto row = deltas.begin(); row != deltas.end(); row += width_px) {
+    const int y = static_cast<int>((row - deltas.begin()) / width_px);
+    const auto end = row + width_px;
+    for (auto at = row; (at = std::find_if(at, end, differs)) != end;) {
+      const auto piece_end = at + std::min(kPiece_px, end - at);
+      auto last = piece_end - 1;
+      while (*last == 0) --last;
+      regions.add({static_cast<int>(at - row), y, static_cast<int>(last - at) + 1, 1});
+      at = piece_end;
+    }
+  }
+  return regions.take();
+}
+
+Bytes difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas) {
+  const auto pack_row = [&](int row, std::uint8_t* to) {
+    const std::ptrdiff_t at = std::ptrdiff_t{row} * reference.width_px;
+    const std::uint32_t* const words = reference.words.data() + at;
+    std::transform(words, words + reference.width_px, deltas.data() + at, to,
+                   [](std::uint32_t word, std::uint8_t delta) {
+                     const int red = kGreys + (kReds - 1) * delta / 255;
+                     return static_cast<std::uint8_t>(delta == 0 ? pale(word) : red);
+                   });
+  };
+  return encode_png_palette(reference.width_px, reference.height_px, palette_of_differences(),
+                            pack_row);
 }
 
 }  // namespace piblocks

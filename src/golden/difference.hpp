@@ -4,9 +4,13 @@
 
 #include <piblocks/compare.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "media/output/bytes.hpp"
 
 namespace piblocks {
 
@@ -20,14 +24,20 @@ std::string row_text(const FrameComparison& frame);
 /// The summary of a comparison: "different: 3 of 12 frames differ, 1 missing".
 std::string summary_text(const ComparisonJob& job, const ComparisonResult& result);
 
-/// The reference in pale grey, on white where it is transparent, with red where pixels differ,
-/// stronger where they differ more.
-/// @param deltas  as pixel_deltas() returns them
-Image difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas);
+/// What the job accepts: "Samples may differ by up to 3 of 255, except in up to 40 pixels."
+std::string tolerance_text(const ComparisonJob& job);
 
-/// Expected, difference, actual, from left to right. If three pictures are wider than kMaxSide_px,
-/// only a part around `focus` is shown.
-Image difference_strip(const Image& reference, const std::vector<std::uint8_t>& deltas,
-                       const Image& actual, const PixelRect& focus);
+inline constexpr std::size_t kMaxRegions = 100;
+
+/// Rectangles around all pixels that differ. They do not touch: those nearer than 16 pixels are
+/// joined, and more distant ones where there would be more than kMaxRegions. Takes time in
+/// proportion to the pixels.
+/// @param deltas  as pixel_deltas() returns them
+std::vector<PixelRect> changed_regions(std::span<const std::uint8_t> deltas, int width_px);
+
+/// A PNG file: the reference in pale grey, on white where it is transparent, with red where pixels
+/// differ, stronger where they differ more.
+/// @param deltas  as pixel_deltas() returns them
+Bytes difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas);
 
 }  // namespace piblocks

@@ -40,7 +40,8 @@ std::string row_name(const Fetched& reference, const Fetched& actual) {
 }
 
 Fetched decoded(const ListedPicture& picture, Bytes file) {
-  Fetched fetched{.is_there = true, .name = name_of(picture)};
+  Fetched fetched{
+      .is_there = true, .name = name_of(picture), .key = name_of(picture), .path = picture.path};
   try {
     if (!picture.problem.empty()) throw IoError(picture.problem);
     refuse_pipe(picture.path, "compare");
@@ -236,16 +237,17 @@ void compare_samples(Fetched reference, Fetched actual, const ComparisonJob& job
   result.held_bytes = pair->held_bytes();
   if (!row.problem.empty()) return;
   result.is_compared = true;
-  const auto masks = masks_of(job, reference, actual, pair->size(), result);
+  row.width_px = pair->size().width_px;
+  row.masks = masks_of(job, reference, actual, pair->size(), result);
   pair->unify();
   row.difference = pair->apply([&](const auto& a, const auto& b) {
-    return compare(comparable(a), comparable(b), job.tolerance, masks);
+    return compare(comparable(a), comparable(b), job.tolerance, row.masks);
   });
   const bool is_same = row.difference->is_equal() && row.difference->masked_pixels == 0;
   row.outcome = is_same                       ? Outcome::equal
                 : row.difference->is_accepted ? Outcome::accepted
                                               : Outcome::different;
-  row.deltas = [pair, masks, ignores_transparent = job.tolerance.ignores_transparent] {
+  row.deltas = [pair, masks = row.masks, ignores_transparent = job.tolerance.ignores_transparent] {
     return pair->apply([&](const auto& a, const auto& b) {
       return pixel_deltas(a, b, masks, ignores_transparent);
     });
@@ -278,6 +280,9 @@ ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJ
       .row = {}, .has_reference = reference.is_there, .has_actual = actual.is_there};
   FrameComparison& row = result.row;
   row.name = row_name(reference, actual);
+  row.key = reference.is_there ? reference.key : actual.key;
+  if (reference.is_read()) row.reference_path = reference.path;
+  if (actual.is_read()) row.actual_path = actual.path;
   if (reference.is_read() && actual.is_read()) {
     try {
       compare_samples(std::move(reference), std::move(actual), job, result);

@@ -18,6 +18,8 @@ namespace piblocks {
 struct Fetched {
   bool is_there = false;
   std::string name = {};                    ///< for people
+  std::string key = {};                     ///< for file names
+  std::string path = {};                    ///< of the PNG file that is this frame
   std::string problem = {};                 ///< why it cannot be read
   std::shared_ptr<FrameReader> frame = {};  ///< stands at the frame, if it could be read
 

@@ -47,8 +47,9 @@ class VideoSide final : public FrameSide {
       if (stop_.stop_requested()) throw;
       fetched.problem = error.what();
     }
-    fetched.name = reader_ ? fmt::format("frame {}", is_over_ ? fetched_ : fetched_ - 1)
-                           : fs::path(path_).filename().string();
+    const std::int64_t number = is_over_ ? fetched_ : fetched_ - 1;
+    fetched.name = reader_ ? fmt::format("frame {}", number) : fs::path(path_).filename().string();
+    fetched.key = reader_ ? frame_key(number) : fetched.name;
     fetched.frame = reader_;
     return fetched;
   }

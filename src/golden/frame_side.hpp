@@ -3,6 +3,8 @@
 // Out: the frames, read when they are fetched.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,6 +16,9 @@
 #include "golden/picture_list.hpp"
 
 namespace piblocks {
+
+/// The key of a frame of a video.
+inline std::string frame_key(std::int64_t number) { return fmt::format("frame-{:06}", number); }
 
 class FrameSide {
  public:

@@ -1,5 +1,6 @@
 // What a comparison leaves behind for people and for other programs.
-// In: the comparison of every frame, in order. Out: a folder of pictures, a page, a list of tests.
+// In: the comparison of every frame, in order. Out: a folder of pictures, a page, lists for
+// programs.
 #pragma once
 
 #include <piblocks/compare.hpp>
@@ -9,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "core/overwrite_check.hpp"
 #include "golden/difference.hpp"
 
 namespace piblocks {
@@ -22,24 +22,35 @@ class Report {
   virtual void finish(const ComparisonJob& job, const ComparisonResult& result) = 0;
 };
 
-/// A PNG file of each of the first kMaxShown frames that are different: expected, difference,
-/// actual. finish() makes them appear, and removes those of earlier comparisons, which carry a
+/// Three PNG files of each of the first kMaxShown frames that are different, as picture_name()
+/// names them. finish() makes them appear, and removes those of earlier comparisons, which carry a
 /// mark.
 /// @throws UsageError if the folder cannot be made, or by finish() if a picture would replace a
 ///         file that no comparison has written.
 std::unique_ptr<Report> diff_folder(const std::string& folder);
 
-/// Enters the pictures of such a folder as files that are written.
-void claim_diff_folder(OverwriteCheck& check, const std::string& folder);
+enum class ReportForm {
+  with_folder,  ///< pictures are in folder_of_report(), as in a diff_folder()
+  one_file      ///< needs nothing else; held in memory until it is finished
+};
 
-/// One HTML file that needs nothing else: every frame that is not equal, the most severe outcomes
-/// first, with pictures of the first kMaxShown.
-/// @throws UsageError if it cannot be written.
-std::unique_ptr<Report> html_report(const std::string& path);
+/// An HTML page: every frame that is not equal, the most severe outcomes first, with pictures of
+/// the first kMaxShown. @throws UsageError if it cannot be written, or as diff_folder().
+std::unique_ptr<Report> html_report(const std::string& path, ReportForm form);
+
+/// "sub/report-files" for "sub/report.html".
+std::string folder_of_report(const std::string& path);
 
 /// A test case for every row, in the XML of JUnit: an error if it is unreadable, a failure if it is
 /// not accepted for another reason.
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> junit_report(const std::string& path);
+
+/// An object of JSON with the counts and all rows; rectangles are [x, y, width, height].
+/// @throws UsageError if it cannot be written.
+std::unique_ptr<Report> json_report(const std::string& path);
+
+/// A comparison that is broken off leaves no report, rather than that of an earlier one.
+void remove_old_report(const std::string& path);
 
 }  // namespace piblocks

@@ -9,6 +9,7 @@ namespace piblocks {
 
 void Rows::take(FrameComparison row, bool has_reference, bool has_actual) {
   row.number = number_++;
+  if (row.key.empty()) row.key = row.name;
   ++result_.rows.at(static_cast<std::size_t>(row.outcome));
   result_.reference_frames += has_reference ? 1 : 0;
   result_.actual_frames += has_actual ? 1 : 0;

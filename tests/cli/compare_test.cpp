@@ -101,7 +101,8 @@ TEST_F(CompareTest, ExitCodesAreInTheOrderOfSeverity) {
   }
   const auto code = [&](const Arguments& more = {}) {
     const Arguments all = Arguments{"a", "b", "--quiet", "--report", "r.html"} + more;
-    return compare(all + Arguments{"--junit", "r.xml", "--diff", "d"}).exit_code;
+    return compare(all + Arguments{"--junit", "r.xml", "--json", "r.json", "--diff", "d"})
+        .exit_code;
   };
   EXPECT_EQ(code(), 0);
   still("b/1.png", "2");
@@ -145,13 +146,15 @@ TEST_F(CompareTest, ReportsAreWrittenWhateverIsFound) {
                                                         {{"a.framehash", "none.framehash"}, 5}};
   for (const auto& [sides, code] : cases) {
     SCOPED_TRACE(sides[0] + " " + sides[1]);
-    const Arguments reports = {"--junit", "r.xml", "--report", "r.html", "--diff", "d"};
+    const Arguments reports = {"--junit",  "r.xml",  "--json", "r.json",
+                               "--report", "r.html", "--diff", "d"};
     EXPECT_EQ(compare(Arguments{"a/1.png", "a/1.png"} + reports).exit_code, 0);
     const CommandResult result = compare(sides + reports);
     EXPECT_EQ(result.exit_code, code) << result.out << result.err;
     EXPECT_FALSE(contains(contents("r.xml"), "failures=\"0\" errors=\"0\""));
     EXPECT_TRUE(contains(contents("r.xml"), sides[1] + " against " + sides[0]));
     EXPECT_TRUE(contains(contents("r.html"), "class=\"refused\""));
+    EXPECT_FALSE(contains(contents("r.json"), "\"text\":\"equal: "));
   }
 }
 
@@ -174,10 +177,11 @@ TEST_F(CompareTest, TheMostSevereAreShownFirstEverywhere) {
   EXPECT_TRUE(contains(one.out, "\n… and 11 more\n"));
   const std::string page = contents("r.html");
   EXPECT_LT(page.find("<h2>45.png</h2>"), page.find("<h2>0.png</h2>"));
-  EXPECT_EQ(names_in("d"), (Names{"000045.png"}));
+  EXPECT_EQ(names_in("d"), (Names{"45-actual.png", "45-diff.png", "45-expected.png"}));
+  EXPECT_EQ(names_in("r-files").size(), 3 * 40U) << "no more than the page shows";
   // All of them are different now.
   EXPECT_EQ(compare({"a", "b", "--report", "r.html", "--diff", "d"}).exit_code, 1);
-  EXPECT_EQ(names_in("d").size(), 40U);
+  EXPECT_EQ(names_in("d").size(), 3 * 40U);
   const std::string all = contents("r.html");
   EXPECT_EQ(count_of(all, "<img"), 3 * 40U);
   EXPECT_TRUE(contains(all, "<b>50.png</b>")) << "the others are named";
@@ -251,16 +255,74 @@ TEST_F(CompareTest, LeavesPicturesAPageAndAListOfTests) {
   const CommandResult result = compare({"a", "b", "--diff", "d/e", "--report", "r.html", "--junit",
                                         "r.xml", "--mask", "1x1+0+0", "--mask", "1x1+1+1"});
   EXPECT_EQ(result.exit_code, 1) << result.err;
-  EXPECT_TRUE(contents("d/e/000002.png").starts_with("\x89PNG"));
-  EXPECT_TRUE(contents("d/e/000006.png").starts_with("\x89PNG"));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "d/e"), {}), 2);
+  for (const char* name : {"0003", "0007"}) {
+    for (const char* kind : {"expected", "actual", "diff"}) {
+      const std::string picture = fmt::format("{}-{}.png", name, kind);
+      EXPECT_TRUE(contents("d/e/" + picture).starts_with("\x89PNG")) << picture;
+      EXPECT_EQ(contents("r-files/" + picture), contents("d/e/" + picture));
+      EXPECT_TRUE(contains(contents("r.html"), "src=\"r-files/" + picture + "\""));
+    }
+  }
+  EXPECT_EQ(names_in("d/e").size(), 6U);
+  EXPECT_EQ(names_in("r-files").size(), 6U);
   const std::string page = contents("r.html");
   EXPECT_TRUE(contains(page, "<h2>0003.png</h2>"));
-  EXPECT_TRUE(contains(page, "data:image/png;base64,iVBOR"));
+  EXPECT_TRUE(contains(page, "Every sample must be equal. Masked: 1x1+0+0, 1x1+1+1."));
   EXPECT_FALSE(contains(page, "http"));
   const std::string tests = contents("r.xml");
   EXPECT_TRUE(contains(tests, "tests=\"12\" failures=\"2\""));
   EXPECT_TRUE(contains(tests, "name=\"0007.png\">\n      <failure type=\"different\" message=\""));
+}
+
+TEST_F(CompareTest, APageInOneFileNeedsNothingElse) {
+  still("a.png", "1");
+  still("b.png", "2");
+  EXPECT_EQ(compare({"a.png", "b.png", "--report", "r.html"}).exit_code, 1);
+  EXPECT_EQ(names_in("r-files"), (Names{"a-actual.png", "a-diff.png", "a-expected.png"}));
+  EXPECT_EQ(compare({"a.png", "b.png", "--report", "r.html", "--report-in-one-file"}).exit_code, 1);
+  EXPECT_FALSE(fs::exists(folder_ / "r-files")) << "of an earlier page";
+  EXPECT_TRUE(contains(contents("r.html"), "data:image/png;base64,iVBOR"));
+  EXPECT_FALSE(contains(contents("r.html"), "r-files"));
+  EXPECT_TRUE(contains(complaint({"a.png", "b.png", "--report-in-one-file"}, 2), "--report"));
+}
+
+TEST_F(CompareTest, APageReplacesNoPicturesOfOthers) {
+  still("a.png", "1");
+  still("b.png", "2");
+  fs::create_directory(folder_ / "r-files");
+  write("r-files/a-diff.png", "mine");
+  EXPECT_TRUE(
+      contains(complaint({"a.png", "b.png", "--report", "r.html"}, 2), "'r-files/a-diff.png'"));
+  EXPECT_EQ(names_in("r-files"), (Names{"a-diff.png"}));
+  EXPECT_EQ(contents("r-files/a-diff.png"), "mine");
+  EXPECT_FALSE(fs::exists(folder_ / "r.html"));
+  still("r-files/x.png", "1");
+  const CommandResult inside = compare({"r-files/x.png", "b.png", "--report", "r.html"});
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_TRUE(contains(inside.err, "--report 'r-files': would write over the reference"));
+}
+
+TEST_F(CompareTest, JsonHasTheNumbersOfEveryRow) {
+  render("a/%04d.png");
+  fs::copy(folder_ / "a", folder_ / "b");
+  still("b/0007.png", "0.51");
+  fs::remove(folder_ / "b/0008.png");
+  const CommandResult result = compare({"a", "b", "--json", "r.json", "--max-delta", "0.5",
+                                        "--max-window", "16:2", "--mask", "3x2+0+1"});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  write("read.py", R"(import json
+run = json.load(open("r.json"))
+print(run["reference"], run["actual"], run["outcome"], run["masks"], len(run["rows"]))
+print(run["tolerance"]["max_delta"], run["tolerance"]["window"], run["counts"]["different"])
+row = run["rows"][6]
+print(row["name"], row["outcome"], row["off_pixels"] == row["different_pixels"] > 0,
+      row["max_level"], row["densest"]["rect"][2:], len(row["regions"]) > 0)
+print(run["rows"][7], run["rows"][0]["different_pixels"]))");
+  EXPECT_EQ(shell("python3 read.py"),
+            "a b missing [[0, 1, 3, 2]] 12\n"
+            "0.5 {'side': 16, 'max_pixels': 2} 1\n"
+            "0007.png different True 255 [16, 16] True\n"
+            "{'name': '0008.png', 'outcome': 'missing', 'text': 'missing'} 0\n");
 }
 
 /// One that is broken off must not leave the green page of an earlier one.
@@ -289,15 +351,38 @@ TEST_F(CompareTest, ReplacesPicturesOfAnEarlierComparisonAndNoOthers) {
   still("b/0003.png", "0.2");
   still("b/0007.png", "0.51");
   EXPECT_EQ(compare({"a", "b", "--diff", "d"}).exit_code, 1);
-  fs::copy(folder_ / "a/0001.png", folder_ / "d/000009.png");
+  fs::copy(folder_ / "a/0001.png", folder_ / "d/0010-diff.png");
   write("d/notes.txt", "mine");
   fs::copy(folder_ / "a/0003.png", folder_ / "b/0003.png", fs::copy_options::overwrite_existing);
   EXPECT_EQ(compare({"a", "b", "--diff", "d"}).exit_code, 1);
-  EXPECT_EQ(names_in("d"), (Names{"000006.png", "000009.png", "notes.txt"}));
-  still("b/0010.png", "0.51");  // its difference is 000009.png
-  EXPECT_TRUE(contains(complaint({"a", "b", "--diff", "d"}, 2), "'d/000009.png'"));
-  EXPECT_EQ(contents("d/000009.png"), contents("a/0001.png"));
-  EXPECT_EQ(names_in("d"), (Names{"000006.png", "000009.png", "notes.txt"}));
+  const Names left = {"0007-actual.png", "0007-diff.png", "0007-expected.png", "0010-diff.png",
+                      "notes.txt"};
+  EXPECT_EQ(names_in("d"), left);
+  still("b/0010.png", "0.51");
+  EXPECT_TRUE(contains(complaint({"a", "b", "--diff", "d"}, 2), "'d/0010-diff.png'"));
+  EXPECT_EQ(contents("d/0010-diff.png"), contents("a/0001.png"));
+  EXPECT_EQ(names_in("d"), left);
+}
+
+/// Also where they are copies that a comparison has made, in a folder of the folder.
+TEST_F(CompareTest, WhatIsComparedIsNoPictureOfAnEarlierComparison) {
+  still("a/x.png", "1");
+  still("b/x.png", "2");
+  EXPECT_EQ(compare({"a", "b", "--diff", "d/s"}).exit_code, 1);
+  const CommandResult again = compare({"d/s/x-actual.png", "a/x.png", "--diff", "d"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_TRUE(contains(again.err, "--diff 'd': would write over the reference"));
+  EXPECT_EQ(names_in("d/s").size(), 3U);
+}
+
+TEST_F(CompareTest, FramesOfVideosHaveNumbers) {
+  render("a.y4m");
+  render("b.y4m", {"--from", "1/100"});
+  EXPECT_EQ(compare({"a.y4m", "b.y4m", "--diff", "d"}).exit_code, 1);
+  const Names names = names_in("d");
+  ASSERT_EQ(names.size(), 3 * 12U);
+  EXPECT_EQ(names.front(), "frame-000000-actual.png");
+  EXPECT_EQ(names.back(), "frame-000011-expected.png");
 }
 
 /// Only root can mount a file system.
@@ -311,8 +396,8 @@ TEST_F(CompareTest, AFullDiskUnderTheReportIsNoUnreadableInput) {
   const std::string diff = complaint({"a.png", "b.png", "--diff", "d"}, 1);
   const std::string report = complaint({"a.png", "b.png", "--report", "d/r.html"}, 1);
   ::umount2(disk.c_str(), MNT_DETACH);
-  EXPECT_TRUE(contains(diff, "000000.png': No space left on device"));
-  EXPECT_TRUE(contains(report, "r.html': No space left on device"));
+  EXPECT_TRUE(contains(diff, "d/a-expected.png': No space left on device"));
+  EXPECT_TRUE(contains(report, "No space left on device"));
 }
 
 TEST_F(CompareTest, NamesOfAnyBytesMakeReportsThatCanBeRead) {

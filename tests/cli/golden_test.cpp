@@ -83,16 +83,17 @@ TEST_F(GoldenTest, FindsWhatHasChangedAndChangesNothing) {
   EXPECT_EQ("before.png and after" + printed.at(0).substr(std::string("scene-last").size()),
             compared);
   EXPECT_EQ(printed.at(3), "scene.framehash: frames 12 to 27 differ");
-  EXPECT_EQ(printed.at(4), "scene: 'd/scene' has expected, difference and actual of 3 pictures");
+  EXPECT_EQ(printed.at(4), "scene: 'd/scene' has expected, actual and difference of 3 pictures");
   EXPECT_EQ(printed.at(5),
-            "scene: 'd/scene' has the actual picture of 16 of 16 frames that differ, 000012.png to "
-            "000027.png; of the expected ones there are only hashes");
+            "scene: 'd/scene' has the actual picture of 16 of 16 frames that differ, "
+            "frame-000012-actual.png to frame-000027-actual.png; of the expected ones there are "
+            "only hashes");
   EXPECT_EQ(contents("refs/scene.framehash"), hashes);
-  EXPECT_EQ(names_in("d/scene").size(), 19U);
-  EXPECT_TRUE(contents("d/scene/scene-last.png").starts_with("\x89PNG"));
+  EXPECT_EQ(names_in("d/scene").size(), 3 * 3U + 16U);
+  EXPECT_TRUE(contents("d/scene/scene-last-diff.png").starts_with("\x89PNG"));
   // The picture is that of the film; sequences count from 1.
   piblocks({"render", "scene.toml", "--size", "160x90", "-o", "f/%06d.png"});
-  EXPECT_EQ(piblocks({"compare", "f/000018.png", "d/scene/000017.png"}).exit_code, 0);
+  EXPECT_EQ(piblocks({"compare", "f/000018.png", "d/scene/frame-000017-actual.png"}).exit_code, 0);
 }
 
 TEST_F(GoldenTest, ShowsAtMostSoMuch) {
@@ -201,7 +202,7 @@ TEST_F(GoldenTest, ChecksShareTheFolderOfDifferences) {
   for (auto& check : checks) {
     expect(check.get(), 1, "scene: different: 16 of 28 frames differ, 3 of 4 pictures differ");
   }
-  EXPECT_EQ(names_in("d/scene").size(), 19U);
+  EXPECT_EQ(names_in("d/scene").size(), 3 * 3U + 16U);
   // What is equal again has none.
   golden("approve");
   write("d/scene/mine.png", "mine");

@@ -223,7 +223,7 @@ class PageCheck:
                  if event["method"] == "Network.requestWillBeSent"]
         elsewhere = [url[:80] for url in asked if not url.startswith(("data:", "file:"))]
         self.expect(f"{what}: requests to other places", elsewhere, [])
-        files = [url for url in asked if url.startswith("file:")]
+        files = [url for url in asked if url.startswith("file:") and "-files/" not in url]
         self.expect(f"{what}: files that were read", len(files), 1)
         complaints = [event["params"] for event in self.browser.events if event["method"] in
                       ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded")]

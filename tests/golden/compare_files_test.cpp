@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <random>
+#include <tuple>
 
+#include "golden/difference.hpp"
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
 #include "media/png/png_chunk.hpp"
@@ -158,7 +161,7 @@ TEST_F(CompareFilesTest, TheComparisonGoesOnAfterWhateverIsFound) {
   EXPECT_EQ(result_.worst(), Outcome::unreadable);
 }
 
-/// No pixel is off, but one is beyond the hard limit; the picture is wider than a strip.
+/// No pixel is off, but one is beyond the hard limit.
 TEST_F(CompareFilesTest, TheHardLimitIsNamedAndItsPixelShown) {
   Image image{9000, 2, std::vector<std::uint32_t>(18000, 0xff808080)};
   save("a.png", image);
@@ -166,6 +169,7 @@ TEST_F(CompareFilesTest, TheHardLimitIsNamedAndItsPixelShown) {
   save("b.png", image);
   ComparisonJob limited = job("a.png", "b.png");
   limited.tolerance = {.max_delta = 20, .hard_delta = 10};
+  EXPECT_TRUE(contains(tolerance_text(limited), "by up to 20 of 255, and none by more than 10"));
   const auto report = diff_folder(folder_ / "d");
   std::string text;
   const ComparisonResult result = compare_files(limited, [&](const FrameComparison& row) {
@@ -174,10 +178,104 @@ TEST_F(CompareFilesTest, TheHardLimitIsNamedAndItsPixelShown) {
   });
   report->finish(limited, result);
   EXPECT_TRUE(contains(text, "0 beyond the accepted delta, the largest beyond the hard limit"));
-  const Image strip = read_png(folder_ / "d/000000.png");
-  EXPECT_TRUE(std::ranges::any_of(strip.words, [](std::uint32_t word) {
-    return (word >> 16 & 0xff) > (word >> 8 & 0xff) + 20;  // red
-  }));
+  const Image diff = read_png(folder_ / "d/a-diff.png");
+  EXPECT_EQ(std::ranges::count(diff.words, 0xffff9797U), 1) << "red";
+  EXPECT_EQ(diff.words.at(8000), 0xffff9797U);
+  EXPECT_EQ(read_png(folder_ / "d/a-actual.png").words, image.words);
+}
+
+/// A picture of the difference has few colours, all of which its palette holds.
+TEST_F(CompareFilesTest, PixelsOfADifferenceArePaleOrRed) {
+  std::mt19937 random(1);
+  Image reference{256, 300, {}};
+  std::vector<std::uint8_t> deltas;
+  for (int i = 0; i < 256 * 300; ++i) {
+    reference.words.push_back(static_cast<std::uint32_t>(random()));
+    deltas.push_back(static_cast<std::uint8_t>(i % 3 == 0 ? random() : 0U));
+  }
+  const Bytes png = difference_picture(reference, deltas);
+  text("d.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+  const Image shown = read_png(folder_ / "d.png");
+  ASSERT_EQ(shown.words.size(), deltas.size());
+  for (std::size_t i = 0; i < deltas.size(); ++i) {
+    const auto level = [&](int shift) { return int(reference.words[i] >> shift & 0xff); };
+    const int mean = (level(16) + 2 * level(8) + level(0)) / 4;
+    const auto grey = std::uint32_t(255 - (255 - mean) * level(24) / 255 / 4);
+    const auto other = std::uint32_t(160 - 160 * deltas[i] / 255);
+    ASSERT_EQ(shown.words[i],
+              0xff000000 | (deltas[i] == 0 ? grey * 0x010101 : 0xff0000 | other * 0x0101));
+  }
+}
+
+TEST(ChangedRegions, CoverAllThatDiffersAndAreApart) {
+  std::mt19937 random(2);
+  for (const auto& [width, height, count] : {std::tuple{1, 1, 1},
+                                             {1, 500, 40},
+                                             {333, 97, 3},
+                                             {640, 360, 30},
+                                             {640, 360, 5000},
+                                             {4096, 5, 4096},
+                                             {3000, 2000, 600},
+                                             {3000, 2000, 0}}) {
+    std::vector<std::uint8_t> deltas(std::size_t(width) * std::size_t(height));
+    for (int i = 0; i < count; ++i) deltas[random() % deltas.size()] = 1;
+    const std::vector<PixelRect> regions = changed_regions(deltas, width);
+    EXPECT_LE(regions.size(), kMaxRegions);
+    std::vector<int> covered(deltas.size());
+    for (const PixelRect& region : regions) {
+      for (int y = region.y_px; y < region.bottom_px(); ++y) {
+        for (int x = region.x_px; x < region.right_px(); ++x) {
+          ++covered.at(std::size_t(y) * std::size_t(width) + std::size_t(x));
+        }
+      }
+    }
+    for (std::size_t i = 0; i < deltas.size(); ++i) {
+      ASSERT_LE(covered[i], 1) << "they do not overlap";
+      ASSERT_TRUE(covered[i] == 1 || deltas[i] == 0) << i;
+    }
+  }
+}
+
+TEST(ChangedRegions, AreAsSmallAsCanBe) {
+  std::vector<std::uint8_t> deltas(200 * 100);
+  deltas[200 * 10 + 20] = deltas[200 * 12 + 34] = 9;  // near each other
+  deltas[200 * 10 + 150] = deltas[200 * 99 + 199] = 1;
+  EXPECT_EQ(changed_regions(deltas, 200),
+            (std::vector<PixelRect>{{150, 10, 1, 1}, {20, 10, 15, 3}, {199, 99, 1, 1}}));
+}
+
+/// Files are copied, with all that is in them.
+TEST_F(CompareFilesTest, PicturesOfADifferenceHaveTheNamesOfTheirFiles) {
+  picture("a/s/x.png");
+  picture("b/s/x.png", 0xff204061);
+  picture("a/y.png");
+  picture("b/y.png", 0xff204061);
+  const auto compare_into = [&](const std::string& folder) {
+    const auto report = diff_folder(folder_ / folder);
+    const ComparisonJob both = job("a", "b");
+    report->finish(both,
+                   compare_files(both, [&](const FrameComparison& row) { report->add(row); }));
+  };
+  compare_into("d");
+  for (const char* name : {"d/s/x-expected.png", "d/s/x-actual.png", "d/s/x-diff.png",
+                           "d/y-expected.png", "d/y-actual.png", "d/y-diff.png"}) {
+    EXPECT_TRUE(fs::is_regular_file(folder_ / name)) << name;
+  }
+  EXPECT_EQ(fs::file_size(folder_ / "d/s/x-actual.png"), fs::file_size(folder_ / "b/s/x.png") + 44)
+      << "with a mark";
+  // What is equal now leaves nothing, except files of others.
+  fs::copy(folder_ / "a/s/x.png", folder_ / "b/s/x.png", fs::copy_options::overwrite_existing);
+  text("d/s/notes-diff.png", "mine");
+  compare_into("d");
+  EXPECT_FALSE(fs::exists(folder_ / "d/s/x-diff.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "d/s/notes-diff.png"));
+  fs::remove(folder_ / "d/s/notes-diff.png");
+  fs::copy(folder_ / "a/y.png", folder_ / "b/y.png", fs::copy_options::overwrite_existing);
+  picture("b/s/x.png", 0xff204061);
+  compare_into("d");
+  fs::copy(folder_ / "a/s/x.png", folder_ / "b/s/x.png", fs::copy_options::overwrite_existing);
+  compare_into("d");
+  EXPECT_TRUE(fs::is_empty(folder_ / "d")) << "no empty subfolder";
 }
 
 /// Opening it would wait for a writer.

@@ -68,8 +68,9 @@ def test_a_life_of_references(program):
     assert "Traceback" not in result.stdout
     assert os.path.exists(f"results/{turn}64x36.html")
     pictures = os.listdir(f"results/{turn}64x36")
-    assert f"{turn}64x36-turn.png" in pictures and "000020.png" in pictures
-    assert f"{turn}64x36-0.png" not in pictures, "nothing differs there"
+    for name in (f"{turn}64x36-turn-expected.png", f"{turn}64x36-turn-diff.png", "frame-000020-actual.png"):
+        assert name in pictures
+    assert f"{turn}64x36-0-diff.png" not in pictures, "nothing differs there"
 
     assert "4 passed" in pytest_run("--piblocks-golden-approve", ratio=100).stdout
     results = ("--piblocks-golden-results", "results")

@@ -38,7 +38,8 @@ class ApngEncoder final : public PacketPerFrameEncoder {
     filter(rect);
     Bytes bytes;
     if (number == 0) {
-      append_png_header(bytes, format_.width_px, format_.height_px, format_.has_alpha);
+      append_png_header(bytes, format_.width_px, format_.height_px,
+                        format_.has_alpha ? PngColors::rgba : PngColors::rgb);
       append_animation_control(bytes, 0);  // write_trailer() knows how many frames there are
       append_png_srgb(bytes);
     }

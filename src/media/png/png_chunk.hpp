@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -28,8 +29,11 @@ void end_png_chunk(Bytes& png, std::size_t start);
 /// A whole chunk.
 void append_png_chunk(Bytes& png, std::string_view type, ByteSpan data = {});
 
-/// Signature and header of a picture with 8 bits a sample, RGB or RGBA.
-void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha);
+/// What a sample of 8 bits is (PNG specification, table 11.1).
+enum class PngColors : std::uint8_t { rgb = 2, palette = 3, rgba = 6 };
+
+/// Signature and header of a picture with 8 bits a sample.
+void append_png_header(Bytes& png, int width_px, int height_px, PngColors colors);
 /// The chunk that says that colours are sRGB.
 void append_png_srgb(Bytes& png);
 
@@ -51,6 +55,12 @@ void append_up_filtered(Bytes& rows, int count, std::size_t row_bytes, const Pac
 /// Encodes a picture as read_png_samples() returns it, with straight alpha; without alpha if all of
 /// it is opaque. @throws MediaError as encode_png()
 Bytes encode_png_samples(const Image& picture);
+
+/// Encodes a picture of at most 256 colours, which are words 0xRRGGBB.
+/// @param pack_row  writes the indices of the colours of a row, from 0
+/// @throws MediaError as encode_png()
+Bytes encode_png_palette(int width_px, int height_px, std::span<const std::uint32_t> palette,
+                         const std::function<void(int row, std::uint8_t* indices)>& pack_row);
 
 /// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table
 /// in tests/benchmark/encoders.md. Used by one thread at a time.

@@ -100,7 +100,7 @@ bool write_report(const BoundScript& bound, const std::string& name, const std::
     }
     if (!has_pictures) return;
     const ComparisonJob job{expected.path(), actual.path()};
-    const auto report = html_report(page);
+    const auto report = html_report(page, ReportForm::one_file);
     const ComparisonResult result = compare_files(
         job, [&](const FrameComparison& frame) { report->add(frame); }, stop);
     report->finish(job, result);
