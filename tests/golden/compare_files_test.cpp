@@ -326,7 +326,7 @@ TEST_F(CompareFilesTest, WhatAMaskHidesIsCounted) {
   picture("a.png", 0xff000000);
   picture("b.png", 0xff0000ff);
   ComparisonJob masked = job("a.png", "b.png");
-  masked.masks = {{0, 0, 3, 4}};
+  masked.masks = {{.text = "3x4+0+0", .rects = {{0, 0, 3, 4}}}};
   EXPECT_EQ(rows(masked), Lines{"a.png and b.png different"});
   EXPECT_EQ(result_.masked_frames, 1);
   masked.tolerance.max_delta = 255;
@@ -341,7 +341,7 @@ TEST_F(CompareFilesTest, MasksAreCheckedAgainstEachSize) {
   picture("b/2.png", 0xff204060, 8);
   ComparisonJob masked = job("a", "b");
   const auto is_usage = [&](std::vector<PixelRect> masks) {
-    masked.masks = std::move(masks);
+    masked.masks = {{.text = "mask", .rects = std::move(masks)}};
     try {
       rows(masked);
       return false;
