@@ -57,7 +57,7 @@ constexpr NamedCommand kCommands[] = {
     {"need", "Print how elastic real blocks must be to count digits of pi", define_need},
     {"scenes", "List the scenes that come with the program", define_scenes},
     {"compare", "Compare pictures, sequences or videos", define_compare},
-    {"golden", "Hold scenes to references: record, check, approve", define_golden},
+    {"golden", "Hold scenes and pictures to references: record, check, approve", define_golden},
     {"info", "Print versions of the libraries, encoders found, limits", define_info},
     {"manual", "Print the manual page, or what a shell needs to complete options", define_manual},
 };

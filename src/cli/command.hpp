@@ -75,8 +75,7 @@ class Command final : public OptionTexts {
   std::string name() const;
   bool is_given(const std::string& option) const override;
   std::optional<std::string> text(const std::string& option) const override;
-  /// Of an option that may be given several times.
-  std::vector<std::string> texts(const std::string& option) const;
+  std::vector<std::string> texts(const std::string& option) const override;
 
  private:
   Program* program_;

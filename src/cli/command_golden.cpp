@@ -2,13 +2,16 @@
 #include <piblocks/script.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <optional>
 
 #include "cli/command.hpp"
+#include "cli/comparison.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/golden_actions.hpp"
+#include "cli/golden_folder.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
@@ -23,7 +26,35 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
+/// Options that only pictures in a folder have.
+constexpr std::array kFolderOptions = {"--max-delta",
+                                       "--threshold",
+                                       "--count-antialiasing",
+                                       "--ignore-transparent",
+                                       "--max-pixels",
+                                       "--hard-delta",
+                                       "--max-window",
+                                       "--mask",
+                                       "--report",
+                                       "--report-in-one-file",
+                                       "--junit",
+                                       "--json",
+                                       "--quiet",
+                                       "--missing",
+                                       "--accepted",
+                                       "--remove-unused"};
+
 std::vector<References> references_of(const Command& options) {
+  for (const char* const option : kFolderOptions) {
+    if (!options.is_given(option)) continue;
+    throw UsageError(fmt::format("{} is about pictures in a folder: it needs --against", option));
+  }
+  if (!options.is_given("--dir")) {
+    throw UsageError(
+        "golden: missing the folder of the references: --dir DIR for scenes, --against DIR for a "
+        "folder of pictures");
+  }
+  const std::string folder = *options.text("--dir");
   std::vector<References> all;
   std::vector<std::string> problems;
   for (const std::string& scene : options.texts("SCENE")) {
@@ -33,7 +64,7 @@ std::vector<References> references_of(const Command& options) {
       if (const auto frames = options.text("--frames")) {
         builder.set("--frames", "golden.frames", *frames);
       }
-      all.emplace_back(fs::path(scene).stem(), builder, *options.text("--dir"));
+      all.emplace_back(fs::path(scene).stem(), builder, folder);
     } catch (const UsageError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -111,7 +142,19 @@ void run_each(const std::vector<References>& all, TextOutput& out, const Act& ac
   if (code != 0) throw ExitError(code);
 }
 
+/// @throws UsageError if an option is about scenes.
+bool is_about_folder(const Command& options) {
+  if (!options.is_given("--against")) return false;
+  for (const char* const option : {"--dir", "--frames"}) {
+    if (!options.is_given(option)) continue;
+    throw UsageError(
+        fmt::format("{} is about scenes; --against, about a folder of pictures", option));
+  }
+  return true;
+}
+
 void run_check(const Command& options) {
+  if (is_about_folder(options)) return check_folder(options);
   const std::vector<References> all = references_of(options);
   TextOutput out;
   check_diff(options, all);
@@ -123,42 +166,47 @@ void run_check(const Command& options) {
            });
 }
 
-/// @tparam kWrite  writes the references of one scene.
-template <auto kWrite>
+/// @tparam kWrite  writes the references of one scene, kWriteFolder those of pictures.
+template <auto kWrite, auto kWriteFolder>
 void run_write(const Command& options) {
+  if (is_about_folder(options)) return kWriteFolder(options);
   const std::vector<References> all = references_of(options);
   TextOutput out;
   check_references(options, all);
   run_each(all, out, kWrite);
 }
 
-void add_action(Command& golden, const char* name, const char* help,
-                void (*run)(const Command& options)) {
+/// An action with what all of them have.
+Command add_action(Command& golden, const char* name, const char* help,
+                   void (*run)(const Command& options)) {
   Command command = golden.add_command(name, help);
   command.add_arguments("SCENE",
                         "Scene files, or names that 'piblocks scenes' lists; [golden] in them\n"
-                        "says which pictures are kept");
-  command.add_required_value("--dir", "DIR", "The folder of the references");
+                        "says which pictures are kept. With --against, a folder of PNG files");
+  command.add_value("--dir", "DIR", "The folder of the references of scenes");
+  command.add_value("--against", "DIR", "The folder of the references of a folder of pictures");
   command.add_value("--frames", "T,…",
                     "Instants kept as pictures, instead of the scene's: 3.5, last, #K");
-  if (run == run_check) {
-    command.add_value("--diff", "DIR",
-                      "Write pictures of what differs to DIR/NAME of the scene (at most 40):\n"
-                      "expected, difference and actual of kept pictures, the actual\n"
-                      "picture of frames of which only the hash is kept");
-  }
   command.on_run([=] { run(command); });
+  return command;
 }
 
 }  // namespace
 
 void define_golden(Command& command) {
   command.require_command();
-  add_action(command, "record", "Add the references that scenes do not have",
-             run_write<record_golden>);
-  add_action(command, "check", "Compare scenes with their references; writes none", run_check);
-  add_action(command, "approve", "Replace references, and tell what changes",
-             run_write<approve_golden>);
+  Command record = add_action(command, "record", "Add the references that are missing",
+                              run_write<record_golden, record_folder>);
+  record.add_flag("--missing", "Also if other pictures are not equal to their references");
+  define_tolerance(record);
+  Command check = add_action(command, "check", "Compare with references; writes none", run_check);
+  define_tolerance(check);
+  define_reports(check);
+  Command approve = add_action(command, "approve", "Replace references, and tell what changes",
+                               run_write<approve_golden, approve_folder>);
+  approve.add_value("--accepted", "FILE", "Only the pictures in this list, which a report makes");
+  approve.add_flag("--remove-unused", "Remove references that have no picture");
+  define_tolerance(approve);
   command.set_footer(
       "Every scene is reported, whatever is found about the others. The exit code of check is "
       "that\n"
@@ -173,9 +221,16 @@ void define_golden(Command& command) {
       "are there are not what is drawn: then it adds nothing. approve ends with 0 if it has "
       "replaced\n"
       "them. 2 is wrong usage, and 1 a failure, as of all commands.\n\n"
+      "With --against, SCENE is one folder of pictures, of any program; only 'approve' takes "
+      "names\n"
+      "behind it. Exit codes are those of 'piblocks compare'. What 'record' and 'approve' are told "
+      "to\n"
+      "accept is kept beside the references, and holds in later checks.\n\n"
       "Examples:\n"
       "  piblocks golden record scenes/*.toml --dir golden\n"
-      "  piblocks golden check scenes/*.toml --dir golden --diff differences");
+      "  piblocks golden check scenes/*.toml --dir golden --diff differences\n"
+      "  piblocks golden check shots --against references --report report.html\n"
+      "  piblocks golden approve shots --against references login.png");
 }
 
 }  // namespace piblocks::cli

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/text.hpp"
 
@@ -24,6 +25,11 @@ class OptionTexts {
   virtual bool is_given(const std::string& option) const = 0;
   /// Nothing if the option was not given.
   virtual std::optional<std::string> text(const std::string& option) const = 0;
+  /// Of an option that may be given several times.
+  virtual std::vector<std::string> texts(const std::string& option) const {
+    const std::optional<std::string> given = text(option);
+    return given ? std::vector{*given} : std::vector<std::string>();
+  }
   /// The option's value as `parse` makes it of the text; nothing if it was not given.
   /// @throws UsageError that names option and text if `parse` throws one
   template <typename Parse>

@@ -1,0 +1,17 @@
+// Pictures of any program, held to references in a folder: 'golden check DIR --against REFS'.
+// In: options. Out: lines, reports, references; the tolerance, kept beside the references.
+#pragma once
+
+#include "cli/command.hpp"
+
+namespace piblocks::cli {
+
+/// Compares the pictures with the references, and writes none. @throws ExitError
+void check_folder(const Command& options);
+/// Adds references that are missing. Without --missing, those that are there must be accepted.
+/// @throws ExitError
+void record_folder(const Command& options);
+/// Replaces references, all that are not accepted or those that are named.
+void approve_folder(const Command& options);
+
+}  // namespace piblocks::cli
