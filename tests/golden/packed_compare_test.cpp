@@ -60,8 +60,8 @@ std::vector<int> levels_of(std::uint32_t word, PngColour colour,
   return {int(std::ranges::find(palette, word) - palette.begin())};
 }
 
-/// A file of this kind with these pixels, in some order of its palette, with some filters,
-/// compression and chunks, and perhaps interlaced.
+/// A file of this kind with these pixels, in some order of its palette, with some filters or
+/// interlaced, some compression, and perhaps a gamma.
 std::string file_of_kind(Random& random, const Image& image, PngColour colour) {
   HandMadePng png{.width_px = image.width_px, .height_px = image.height_px, .colour = colour};
   std::vector<std::uint32_t> palette = image.words;
@@ -72,11 +72,11 @@ std::string file_of_kind(Random& random, const Image& image, PngColour colour) {
     const std::vector<int> levels = levels_of(word, colour, palette);
     png.levels.insert(png.levels.end(), levels.begin(), levels.end());
   }
-  for (std::int64_t i = random.integer(0, 5); i > 0; --i) {
+  png.is_interlaced = random.integer(0, 3) == 0;
+  for (std::int64_t i = png.is_interlaced ? 0 : random.integer(0, 5); i > 0; --i) {
     png.filters.push_back(int(random.integer(0, 4)));
   }
   png.compression = int(random.integer(0, 9));
-  png.is_interlaced = random.integer(0, 3) == 0;
   if (random.integer(0, 1) == 0) png.chunks = png_chunk("gAMA", testing_support::big_endian(45455));
   if (colour != PngColour::palette) return file_of(png);
   std::string colours;

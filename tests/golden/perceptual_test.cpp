@@ -105,7 +105,7 @@ TEST(Perceptual, AThresholdOf1AcceptsEverything) {
     EXPECT_EQ(found.off_pixels, 0);
     EXPECT_TRUE(found.is_accepted);
   }
-  for (const std::uint32_t one : {0x000000, 0x0000ff, 0x00ff00, 0xff0000, 0xffff00, 0x00ffff}) {
+  for (const std::uint32_t one : {0U, 0x0000ffU, 0x00ff00U, 0xff0000U, 0xffff00U, 0x00ffffU}) {
     const Image a = flat(1, 1, kBlack | one);
     EXPECT_EQ(off(a, flat(1, 1, kBlack | (0xffffff - one)), looks_alike(1)), 0) << one;
   }

@@ -96,15 +96,15 @@ TEST(Transparent, PixelsOfAnyColourAreEqual) {
     Tolerance tolerance = random_tolerance(random);
     tolerance.threshold.reset();  // what smooths edges has a colour of its own
     tolerance.ignores_transparent = true;
-    const auto cleared = [](Image image) {
-      for (std::uint32_t& word : image.words) word = word >> 24 == 0 ? 0 : word;
-      return image;
-    };
+    Image repainted = pair.b;
+    for (std::size_t word = 0; word < repainted.words.size(); ++word) {
+      const bool is_clear = (pair.a.words[word] | pair.b.words[word]) >> 24 == 0;
+      if (is_clear) repainted.words[word] = pair.a.words[word];
+    }
     const Difference found = compared(pair.a, pair.b, tolerance);
     tolerance.ignores_transparent = false;
-    expect_same(found, compared(cleared(pair.a), cleared(pair.b), tolerance));
-    EXPECT_EQ(pixel_deltas(pair.a, pair.b, {}, true),
-              pixel_deltas(cleared(pair.a), cleared(pair.b)));
+    expect_same(found, compared(pair.a, repainted, tolerance));
+    EXPECT_EQ(pixel_deltas(pair.a, pair.b, {}, true), pixel_deltas(pair.a, repainted));
   }
 }
 
