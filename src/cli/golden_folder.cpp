@@ -42,6 +42,11 @@ bool is_tolerance_option(const std::string& name) {
   return std::ranges::any_of(kToleranceOptions, [&](const char* one) { return one == name; });
 }
 
+/// Whether the option has no value.
+bool is_flag(const std::string& name) {
+  return name == "--count-antialiasing" || name == "--ignore-transparent";
+}
+
 /// The lines of a text file; none if it is not there. @throws IoError
 std::vector<std::string> lines_of(const fs::path& path) {
   std::error_code error;
@@ -49,7 +54,10 @@ std::vector<std::string> lines_of(const fs::path& path) {
   refuse_pipe(path, "golden");
   std::ifstream file(path);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  for (std::string line; std::getline(file, line);) {
+    if (line.ends_with('\r')) line.pop_back();  // written or checked out on Windows
+    lines.push_back(line);
+  }
   if (file.bad() || !file.eof()) {
     throw IoError(fmt::format("golden: cannot read '{}'", path.string()));
   }
@@ -89,8 +97,9 @@ class FolderOptions final : public OptionTexts {
       std::vector<std::string> values = texts(option);
       std::ranges::sort(values);
       values.erase(std::ranges::unique(values).begin(), values.end());
-      const bool is_flag = option.starts_with("--count") || option.starts_with("--ignore");
-      for (const std::string& value : values) text += option + (is_flag ? "" : "=" + value) + '\n';
+      for (const std::string& value : values) {
+        text += option + (is_flag(option) ? "" : "=" + value) + '\n';
+      }
     }
     OutputFile file(path_.string(), OutputFile::Contents::text);
     file.write(text);
@@ -107,7 +116,16 @@ class FolderOptions final : public OptionTexts {
       throw UsageError(fmt::format("golden: '{}' has '{}'; it may have {}", path_.string(),
                                    shortened(line), fmt::join(kToleranceOptions, ", ")));
     }
-    kept_[name].push_back(end == std::string::npos ? "true" : line.substr(end + 1));
+    const bool has_value = end != std::string::npos;
+    if (has_value == is_flag(name)) {
+      throw UsageError(fmt::format("golden: '{}' has '{}'; {} has {}", path_.string(),
+                                   shortened(line), name, has_value ? "no value" : "a value"));
+    }
+    std::vector<std::string>& values = kept_[name];
+    values.push_back(has_value ? line.substr(end + 1) : "true");
+    if (values.size() > 1 && name != "--mask") {
+      throw UsageError(fmt::format("golden: '{}' has {} twice", path_.string(), name));
+    }
   }
 
   const Command& given_;
@@ -181,6 +199,16 @@ std::vector<Row> compared(const Folder& folder) {
                     fmt::format("golden: there is no picture in '{}'", folder.pictures.string()));
   }
   return rows;
+}
+
+/// @throws ExitError if one of these pictures cannot be read: nothing has been done about it
+void check_readable(const std::vector<Row>& rows) {
+  const auto unread = std::ranges::count_if(rows, [](const Row& row) {
+    return row.outcome == Outcome::unreadable && row.actual.empty();
+  });
+  if (unread == 0) return;
+  throw ExitError(kUnreadable,
+                  fmt::format("golden: {} cannot be read", counted(unread, "picture")));
 }
 
 void copy_to_references(const Folder& folder, const Row& row) {
@@ -268,8 +296,13 @@ void record_folder(const Command& command) {
     ++recorded;
   }
   folder.options.write();
+  for (const Row& row : rows) {
+    if (row.outcome != Outcome::unreadable) continue;
+    out.line(printable(fmt::format("{}: left as it is ({})", row.name, row.text)));
+  }
   out.line(fmt::format("recorded: {}", counted(recorded, "new reference")));
   out.finish();
+  check_readable(rows);
 }
 
 void approve_folder(const Command& command) {
@@ -279,7 +312,8 @@ void approve_folder(const Command& command) {
   std::int64_t replaced = 0;
   std::int64_t added = 0;
   std::int64_t removed = 0;
-  for (const Row& row : chosen_rows(compared(folder), names)) {
+  const std::vector<Row> rows = chosen_rows(compared(folder), names);
+  for (const Row& row : rows) {
     const char* done = nullptr;
     if (!row.actual.empty() && row.outcome != Outcome::equal) {
       copy_to_references(folder, row);
@@ -299,6 +333,7 @@ void approve_folder(const Command& command) {
   folder.options.write();
   out.line(fmt::format("approved: {} replaced, {} added, {} removed", replaced, added, removed));
   out.finish();
+  check_readable(rows);
 }
 
 }  // namespace piblocks::cli
