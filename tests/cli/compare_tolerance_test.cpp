@@ -218,6 +218,44 @@ TEST_F(CompareToleranceTest, ColoursOfTransparentPixelsCountUnlessTheyAreIgnored
   EXPECT_EQ(code({"a.png", "b.png", "--ignore-transparent"}), 1);
 }
 
+/// Their colours are compared, whatever the video keeps of them.
+TEST_F(CompareToleranceTest, VideosLookAlikeAsPictures) {
+  const auto write_video = [&](const std::string& name, char luma, char first_chroma) {
+    const std::string chroma(32, char(128));
+    write(name, "YUV4MPEG2 W8 H8 F5:1 C420\nFRAME\n" + std::string(64, luma) + first_chroma +
+                    chroma.substr(1));
+  };
+  write_video("a.y4m", 100, char(128));
+  write_video("b.y4m", 101, char(128));
+  EXPECT_EQ(code({"a.y4m", "b.y4m"}), 1);
+  EXPECT_EQ(code({"a.y4m", "b.y4m", "--threshold", "0.01"}), 0);
+  const CommandResult seen = compare({"a.y4m", "b.y4m", "--threshold", "0"});
+  EXPECT_EQ(seen.exit_code, 1);
+  EXPECT_TRUE(contains(seen.out, "first at x=0 y=0 (red)"));
+  write_video("c.y4m", 100, char(190));
+  EXPECT_EQ(code({"a.y4m", "c.y4m", "--threshold", "0.1", "--count-antialiasing"}), 1);
+  EXPECT_EQ(code({"a.y4m", "a.y4m", "--threshold", "0"}), 0);
+}
+
+TEST_F(CompareToleranceTest, ReportsSayWhatIsAccepted) {
+  write_folders();
+  const auto text = [&](const Arguments& options) {
+    compare(Arguments{"a", "b", "--json", "j"} + options);
+    const std::string json = contents("j");
+    const std::string key = "\"tolerance\":\"";
+    const std::size_t begin = json.find(key) + key.size();
+    return json.substr(begin, json.find('"', begin) - begin);
+  };
+  EXPECT_EQ(text({}), "Every sample must be equal.");
+  EXPECT_EQ(text({"--threshold", "0.1", "--max-pixels", "0.5%"}),
+            "Pixels must look alike, by a threshold of 0.1, or be those of smoothed edges, except "
+            "in up to 0.5% of the pixels.");
+  EXPECT_EQ(text({"--threshold", "0", "--count-antialiasing", "--ignore-transparent"}),
+            "Pixels must look alike, by a threshold of 0. Transparent pixels are equal.");
+  EXPECT_EQ(text({"--max-delta", "3", "--mask", "1.png:1x1+0+0", "--mask", "2x2+0+0"}),
+            "Samples may differ by up to 3 of 255. Masked: 1.png:1x1+0+0, 2x2+0+0.");
+}
+
 TEST_F(CompareToleranceTest, ValuesThatMakeNoSenseAreRefused) {
   write_grey("a.png", 100);
   const Arguments sides = {"a.png", "a.png"};
