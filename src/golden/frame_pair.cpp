@@ -252,12 +252,12 @@ void compare_samples(Fetched reference, Fetched actual, const ComparisonJob& job
   row.outcome = is_same                       ? Outcome::equal
                 : row.difference->is_accepted ? Outcome::accepted
                                               : Outcome::different;
-  row.deltas = made_once([pair, masks = row.masks,
-                          ignores_transparent = job.tolerance.ignores_transparent] {
-    return pair->apply([&](const auto& a, const auto& b) {
-      return pixel_deltas(a, b, masks, ignores_transparent);
-    });
-  });
+  row.deltas =
+      made_once([pair, masks = row.masks, ignores_transparent = job.tolerance.ignores_transparent] {
+        return pair->apply([&](const auto& a, const auto& b) {
+          return pixel_deltas(a, b, masks, ignores_transparent);
+        });
+      });
 }
 
 }  // namespace

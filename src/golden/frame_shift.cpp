@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <limits>
-#include <ranges>
+#include <numeric>
 
 #include "core/text.hpp"
 
@@ -19,8 +19,8 @@ constexpr int kDown = 18;
 constexpr int kColumns = 640;            // of pixels that are read, at least
 constexpr std::size_t kMostFrames = 64;  // that are looked at
 constexpr int kMostShift = 24;           // so that most of them are compared
-constexpr double kAlike = 1.0;           // levels: what a lossy encoder leaves of equal frames
-constexpr double kTimesCloser = 4;       // than without a shift, or it is no explanation
+constexpr double kAlike = 2;  // square levels: more than a lossy encoder leaves of equal frames
+constexpr double kTimesCloser = 4;  // than by any other shift, or the speed is another one
 
 }  // namespace
 
@@ -56,18 +56,15 @@ void FrameShift::add(std::int64_t number, const FrameComparison& frame) {
 }
 
 double FrameShift::distance(int frames_later) const {
-  const auto skipped = [](int frames) { return static_cast<std::ptrdiff_t>(std::max(0, frames)); };
-  const auto a =
-      std::ranges::subrange(reference_.begin() + skipped(-frames_later), reference_.end());
-  const auto b = std::ranges::subrange(actual_.begin() + skipped(frames_later), actual_.end());
+  const auto a = reference_.begin() + std::max(0, -frames_later);
+  const auto b = actual_.begin() + std::max(0, frames_later);
+  const auto frames = std::min(reference_.end() - a, actual_.end() - b);
   double sum = 0;
-  std::size_t parts = 0;
-  std::ranges::mismatch(a, b, [&](const Impression& one, const Impression& other) {
-    for (std::size_t i = 0; i < one.size(); ++i) sum += double(std::abs(one[i] - other[i]));
-    parts += one.size();
-    return true;
-  });
-  return sum / static_cast<double>(parts);
+  for (std::ptrdiff_t i = 0; i < frames; ++i) {
+    sum += std::transform_reduce(a[i].begin(), a[i].end(), b[i].begin(), 0.0, std::plus<>(),
+                                 [](float x, float y) { return double((x - y) * (x - y)); });
+  }
+  return sum / static_cast<double>(frames) / static_cast<double>(Impression().size());
 }
 
 std::string FrameShift::text() const {
@@ -75,14 +72,15 @@ std::string FrameShift::text() const {
   const int most = std::min(kMostShift, frames / 2);
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
+  double second = least;
   for (int shift = -most; shift <= most; ++shift) {
     const double found = distance(shift);
-    if (found < least || (found == least && std::abs(shift) < std::abs(best))) {
-      best = shift;
-      least = found;
-    }
+    second = std::min(second, std::max(found, least));
+    if (found >= least) continue;
+    best = shift;
+    least = found;
   }
-  if (best == 0 || least > kAlike || least * kTimesCloser > distance(0)) return {};
+  if (best == 0 || least > kAlike || least * kTimesCloser > second || second == 0) return {};
   return fmt::format("from frame {} on, frames look like those of the reference {} {} them", first_,
                      counted(std::abs(best), "frame"), best > 0 ? "before" : "after");
 }

@@ -20,11 +20,11 @@ class FrameShift {
   std::string text() const;
 
  private:
-  /// The mean red, green and blue of its parts. Encoding changes these by less than a level.
+  /// The mean red, green and blue of its parts.
   using Impression = std::array<float, std::size_t{3} * 32 * 18>;
 
   static Impression impression_of(const Image& image);
-  /// The mean difference of the frames that both sides have if the actual ones come later.
+  /// The mean square difference of the frames that both sides have if the actual ones come later.
   double distance(int frames_later) const;
 
   std::int64_t first_ = 0;
