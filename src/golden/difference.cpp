@@ -155,6 +155,7 @@ std::string summary_text(const ComparisonJob& job, const ComparisonResult& resul
     const std::int64_t count = result.count(outcome);
     if (count > 0) add(fmt::format("{} {}", count, name_of(outcome)));
   }
+  if (!result.note.empty()) text += "; " + result.note;
   return text;
 }
 
@@ -167,9 +168,9 @@ std::string tolerance_text(const ComparisonJob& job) {
   } else if (tolerance.max_delta > 0) {
     text = fmt::format("Samples may differ by up to {} of 255", to_double(tolerance.max_delta));
   }
-  if (tolerance.max_share) {
+  if (tolerance.max_share < 1) {
     text +=
-        fmt::format(", except in up to {}% of the pixels", to_double(*tolerance.max_share * 100));
+        fmt::format(", except in up to {}% of the pixels", to_double(tolerance.max_share * 100));
   } else if (tolerance.max_pixels >= kMaxFrame_px) {
     text += ", except in any number of pixels";
   } else if (tolerance.max_pixels > 0) {
