@@ -91,12 +91,17 @@ class FolderOptions final : public OptionTexts {
   const std::string& recorded_beside() const noexcept { return painter_; }
 
   /// Keeps the options, and says what paints here.
-  void write() const {
+  /// @param removed  names of pictures whose masks are kept no longer
+  void write(const std::set<std::string>& removed = {}) const {
     std::string text = fmt::format("{}{}\n", kPainter, painter());
     for (const std::string option : kToleranceOptions) {
       std::vector<std::string> values = texts(option);
       std::ranges::sort(values);
       values.erase(std::ranges::unique(values).begin(), values.end());
+      std::erase_if(values, [&](const std::string& value) {
+        const std::size_t end = value.rfind(':');
+        return end != std::string::npos && removed.contains(value.substr(0, end));
+      });
       for (const std::string& value : values) {
         text += option + (is_flag(option) ? "" : "=" + value) + '\n';
       }
@@ -311,7 +316,7 @@ void approve_folder(const Command& command) {
   TextOutput out;
   std::int64_t replaced = 0;
   std::int64_t added = 0;
-  std::int64_t removed = 0;
+  std::set<std::string> removed;
   const std::vector<Row> rows = chosen_rows(compared(folder), names);
   for (const Row& row : rows) {
     const char* done = nullptr;
@@ -322,7 +327,7 @@ void approve_folder(const Command& command) {
       done = is_new ? "added" : "replaced";
     } else if (row.outcome == Outcome::missing && command.is_given("--remove-unused")) {
       fs::remove(folder.references / row.name);
-      ++removed;
+      removed.insert(row.name);
       done = "removed";
     }
     if (done != nullptr) out.line(printable(fmt::format("{}: {} ({})", row.name, done, row.text)));
@@ -330,8 +335,9 @@ void approve_folder(const Command& command) {
       out.line(printable(fmt::format("{}: left as it is ({})", row.name, row.text)));
     }
   }
-  folder.options.write();
-  out.line(fmt::format("approved: {} replaced, {} added, {} removed", replaced, added, removed));
+  folder.options.write(removed);
+  out.line(
+      fmt::format("approved: {} replaced, {} added, {} removed", replaced, added, removed.size()));
   out.finish();
   check_readable(rows);
 }
