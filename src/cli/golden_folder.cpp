@@ -47,6 +47,13 @@ bool is_flag(const std::string& name) {
   return name == "--count-antialiasing" || name == "--ignore-transparent";
 }
 
+/// Whether there is any of the options but masks.
+bool has_tolerance(const Command& command) {
+  return std::ranges::any_of(kToleranceOptions, [&](const std::string& name) {
+    return name != "--mask" && command.is_given(name);
+  });
+}
+
 /// The lines of a text file; none if it is not there. @throws IoError
 std::vector<std::string> lines_of(const fs::path& path) {
   std::error_code error;
@@ -69,10 +76,7 @@ std::vector<std::string> lines_of(const fs::path& path) {
 class FolderOptions final : public OptionTexts {
  public:
   FolderOptions(const Command& given, const fs::path& references)
-      : given_(given), path_(references / kSettings) {
-    replaces_ = std::ranges::any_of(kToleranceOptions, [&](const std::string& name) {
-      return name != "--mask" && given.is_given(name);
-    });
+      : given_(given), path_(references / kSettings), replaces_(has_tolerance(given)) {
     for (const std::string& line : lines_of(path_)) read(line);
   }
 
@@ -97,13 +101,14 @@ class FolderOptions final : public OptionTexts {
     for (const std::string option : kToleranceOptions) {
       std::vector<std::string> values = texts(option);
       std::ranges::sort(values);
-      values.erase(std::ranges::unique(values).begin(), values.end());
+      values.erase(std::unique(values.begin(), values.end()), values.end());
       std::erase_if(values, [&](const std::string& value) {
         const std::size_t end = value.rfind(':');
         return end != std::string::npos && removed.contains(value.substr(0, end));
       });
       for (const std::string& value : values) {
-        text += option + (is_flag(option) ? "" : "=" + value) + '\n';
+        text += is_flag(option) ? option : fmt::format("{}={}", option, value);
+        text += '\n';
       }
     }
     OutputFile file(path_.string(), OutputFile::Contents::text);
@@ -137,7 +142,7 @@ class FolderOptions final : public OptionTexts {
   fs::path path_;
   std::string painter_;
   std::map<std::string, std::vector<std::string>> kept_;
-  bool replaces_ = false;
+  bool replaces_;
 };
 
 bool lies_in(const fs::path& path, const fs::path& folder) {

@@ -66,7 +66,7 @@ std::string file_of_kind(Random& random, const Image& image, PngColour colour) {
   HandMadePng png{.width_px = image.width_px, .height_px = image.height_px, .colour = colour};
   std::vector<std::uint32_t> palette = image.words;
   std::ranges::sort(palette);
-  palette.erase(std::ranges::unique(palette).begin(), palette.end());
+  palette.erase(std::unique(palette.begin(), palette.end()), palette.end());
   shuffle(random, palette);
   for (const std::uint32_t word : image.words) {
     const std::vector<int> levels = levels_of(word, colour, palette);
