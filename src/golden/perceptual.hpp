@@ -76,7 +76,8 @@ class Perceptual {
   template <typename Visit>
   static void visit_around(const Rows& rows, Place centre, const Visit& visit) {
     for (int x = std::max(centre.x - 1, 0); x <= std::min(centre.x + 1, rows.width_px - 1); ++x) {
-      for (int y = std::max(centre.y - 1, 0); y <= std::min(centre.y + 1, rows.height_px - 1); ++y) {
+      for (int y = std::max(centre.y - 1, 0); y <= std::min(centre.y + 1, rows.height_px - 1);
+           ++y) {
         if (x != centre.x || y != centre.y) visit(Place{x, y});
       }
     }
