@@ -4,152 +4,25 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <map>
 #include <set>
-#include <sstream>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "cli/comparison.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/golden_settings.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "cli/tolerance_options.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
 #include "core/text.hpp"
-#include "draw/canvas.hpp"
 #include "golden/difference.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
-
-/// Beside the references: a comment that says what paints on this machine, and options.
-constexpr const char* kSettings = "piblocks-golden.txt";
-constexpr std::string_view kPainter = "# recorded beside ";
-
-/// What paints on this machine, without the fonts that scenes have.
-std::string painter() {
-  const std::string all = painter_fingerprint();
-  return all.substr(0, all.find(", fonts"));
-}
-
-bool is_tolerance_option(const std::string& name) {
-  return std::ranges::any_of(kToleranceOptions, [&](const char* one) { return one == name; });
-}
-
-/// Whether the option has no value.
-bool is_flag(const std::string& name) {
-  return name == "--count-antialiasing" || name == "--ignore-transparent";
-}
-
-/// Whether there is any of the options but masks.
-bool has_tolerance(const Command& command) {
-  return std::ranges::any_of(kToleranceOptions, [&](const std::string& name) {
-    return name != "--mask" && command.is_given(name);
-  });
-}
-
-/// The lines of a text file; none if it is not there. @throws IoError
-std::vector<std::string> lines_of(const fs::path& path) {
-  std::error_code error;
-  if (fs::status(path, error).type() == fs::file_type::not_found) return {};
-  refuse_pipe(path, "golden");
-  std::ifstream file(path);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) {
-    if (line.ends_with('\r')) line.pop_back();  // written or checked out on Windows
-    lines.push_back(line);
-  }
-  if (file.bad() || !file.eof()) {
-    throw IoError(fmt::format("golden: cannot read '{}'", path.string()));
-  }
-  return lines;
-}
-
-/// Options of the command line, and before them those that are kept beside the references. If the
-/// command line has any but masks, it replaces all that are kept but masks.
-class FolderOptions final : public OptionTexts {
- public:
-  FolderOptions(const Command& given, const fs::path& references)
-      : given_(given), path_(references / kSettings), replaces_(has_tolerance(given)) {
-    for (const std::string& line : lines_of(path_)) read(line);
-  }
-
-  bool is_given(const std::string& option) const override { return !texts(option).empty(); }
-  std::optional<std::string> text(const std::string& option) const override {
-    const std::vector<std::string> all = texts(option);
-    return all.empty() ? std::nullopt : std::optional(all.front());
-  }
-  std::vector<std::string> texts(const std::string& option) const override {
-    std::vector<std::string> all = given_.texts(option);
-    const auto kept = kept_.find(option);
-    if (kept == kept_.end() || (replaces_ && option != "--mask")) return all;
-    all.insert(all.end(), kept->second.begin(), kept->second.end());
-    return all;
-  }
-  const std::string& recorded_beside() const noexcept { return painter_; }
-
-  /// Keeps the options, and says what paints here.
-  /// @param removed  names of pictures whose masks are kept no longer
-  void write(const std::set<std::string>& removed = {}) const {
-    std::string text = fmt::format("{}{}\n", kPainter, painter());
-    for (const std::string option : kToleranceOptions) {
-      std::vector<std::string> values = texts(option);
-      std::ranges::sort(values);
-      values.erase(std::unique(values.begin(), values.end()), values.end());
-      std::erase_if(values, [&](const std::string& value) {
-        const std::size_t end = value.rfind(':');
-        return end != std::string::npos && removed.contains(value.substr(0, end));
-      });
-      for (const std::string& value : values) {
-        text += is_flag(option) ? option : fmt::format("{}={}", option, value);
-        text += '\n';
-      }
-    }
-    OutputFile file(path_.string(), OutputFile::Contents::text);
-    file.write(text);
-    file.finish();
-  }
-
- private:
-  void read(const std::string& line) {
-    if (line.starts_with(kPainter)) painter_ = line.substr(kPainter.size());
-    if (line.empty() || line.starts_with('#')) return;
-    const std::size_t end = line.find('=');
-    const std::string name = line.substr(0, end);
-    if (!is_tolerance_option(name)) {
-      throw UsageError(fmt::format("golden: '{}' has '{}'; it may have {}", path_.string(),
-                                   shortened(line), fmt::join(kToleranceOptions, ", ")));
-    }
-    const bool has_value = end != std::string::npos;
-    if (has_value == is_flag(name)) {
-      throw UsageError(fmt::format("golden: '{}' has '{}'; {} has {}", path_.string(),
-                                   shortened(line), name, has_value ? "no value" : "a value"));
-    }
-    std::vector<std::string>& values = kept_[name];
-    values.push_back(has_value ? line.substr(end + 1) : "true");
-    if (values.size() > 1 && name != "--mask") {
-      throw UsageError(fmt::format("golden: '{}' has {} twice", path_.string(), name));
-    }
-  }
-
-  const Command& given_;
-  fs::path path_;
-  std::string painter_;
-  std::map<std::string, std::vector<std::string>> kept_;
-  bool replaces_;
-};
-
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  std::error_code error;
-  const fs::path relative = fs::relative(fs::weakly_canonical(path, error), folder, error);
-  return !error && !relative.empty() && *relative.begin() != "..";
-}
 
 /// The pictures, the references and what is accepted.
 struct Folder {
@@ -183,7 +56,7 @@ struct Folder {
   std::vector<std::string> arguments;
   fs::path pictures;
   fs::path references;
-  FolderOptions options;
+  GoldenSettings options;
   ComparisonJob job;
 };
 

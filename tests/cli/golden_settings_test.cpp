@@ -99,6 +99,17 @@ TEST_F(GoldenSettingsTest, MasksAreAddedToThoseThatAreKept) {
 }
 
 /// Nobody knows what it would hide.
+TEST_F(GoldenSettingsTest, AMaskThatIsAPictureHoldsFromAnyFolder) {
+  write_grey("masks/a.png", 0, {{0, 0, 255}, {1, 0, 255}, {2, 0, 255}, {9, 9, 255}});
+  record({"--mask", "a.png:masks/a.png"});
+  EXPECT_EQ(settings(), Names{"--mask=a.png:../masks/a.png"});
+  EXPECT_EQ(check(), 0);
+  fs::rename(folder_ / "masks", folder_ / "refs/masks");
+  write_settings("--mask=masks/a.png\n");
+  expect_refusal({"golden", "record", "out", "--against", "refs", "--missing"},
+                 "in the folder of the references");
+}
+
 TEST_F(GoldenSettingsTest, AMaskOfAPictureThatIsNotComparedIsNoMistake) {
   write_grey("out/b.png", 100);
   record({"--mask", "b.png:1x1+0+0", "--max-delta", "5"});
