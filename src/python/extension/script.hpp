@@ -78,5 +78,6 @@ void bind_run(pybind11::module_& module);
 void bind_frames(pybind11::module_& module);
 void bind_render(pybind11::module_& module);
 void bind_golden(pybind11::module_& module);
+void bind_compare(pybind11::module_& module);
 
 }  // namespace piblocks::python
