@@ -128,6 +128,7 @@ class Comparison {
 
   const char* outcome() const { return name_of(result_.worst()); }
   bool is_accepted() const { return cli::exit_code_of(result_) == 0; }
+  bool is_pair() const noexcept { return pair_.has_value(); }
   const std::vector<FrameComparison>& rows() const noexcept { return rows_; }
   std::vector<std::string> lines() const {
     if (pair_) return {line_of(*pair_)};
@@ -300,6 +301,7 @@ void bind_compare(py::module_& module) {
              "Of a file; or what a folder, a pattern or a video has.");
   py::class_<Comparison, std::shared_ptr<Comparison>>(module, "Comparison",
                                                       "A comparison that has been made.")
+      .def_property_readonly("is_pair", &Comparison::is_pair, "Whether it has two pictures.")
       .def_property_readonly("ok", &Comparison::is_accepted, "Whether all is accepted.")
       .def_property_readonly("outcome", &Comparison::outcome, "The most severe one of the rows.")
       .def_property_readonly("lines", &Comparison::lines, "What the command line prints.")
