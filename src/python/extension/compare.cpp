@@ -4,22 +4,26 @@
 #include <piblocks/error.hpp>
 #include <pybind11/stl.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "cli/exit_code.hpp"
 #include "cli/tolerance_options.hpp"
+#include "core/descriptor.hpp"
 #include "core/output_file.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/text.hpp"
 #include "golden/diff_pictures.hpp"
 #include "golden/difference.hpp"
+#include "golden/picture_list.hpp"
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
 #include "python/extension/interruptible.hpp"
@@ -108,22 +112,23 @@ class Comparison {
   /// @throws IoError if a side has no picture, or one that alone is compared cannot be read
   Comparison(const Picture& reference, const Picture& actual, ComparisonJob job,
              const std::stop_token& stop)
-      : job_(std::move(job)), are_files_(reference.path() && actual.path()) {
+      : job_(std::move(job)),
+        are_files_(reference.path() && actual.path()),
+        is_named_(reference.path() || actual.path()) {
     const auto take_row = [this](const FrameComparison& row) { take(row); };
     if (are_files_) {
       result_ = compare_files(job_, take_row, stop);
     } else {
       Fetched expected = reference.fetch(job_.reference);
       Fetched found = actual.fetch(job_.actual);
-      if (expected.name.empty()) expected.name = found.name;
-      if (found.name.empty()) found.name = expected.name;
+      for (auto [side, other] : {std::pair(&expected, &found), std::pair(&found, &expected)}) {
+        if (side->name.empty()) side->name = other->name.empty() ? "the picture" : other->name;
+      }
       result_ = compare_pair(std::move(expected), std::move(found), job_, take_row);
     }
     if (pair_ && pair_->outcome == Outcome::unreadable) throw IoError(pair_->problem);
-    if (result_.reference_frames == 0 || result_.actual_frames == 0) {
-      const std::string& text = result_.problem;
-      throw IoError(text.starts_with("compare: ") ? text : "compare: " + text);
-    }
+    if (result_.reference_frames == 0) refuse_empty(job_.reference);
+    if (result_.actual_frames == 0) refuse_empty(job_.actual);
   }
 
   const char* outcome() const { return name_of(result_.worst()); }
@@ -134,8 +139,8 @@ class Comparison {
     if (pair_) return {line_of(*pair_)};
     return lines_.take(summary_text(job_, result_));
   }
-  static std::string line_of(const FrameComparison& row) {
-    return printable(row.name.empty() ? difference_text(row) : row_text(row));
+  std::string line_of(const FrameComparison& row) const {
+    return printable(is_named_ ? row_text(row) : difference_text(row));
   }
 
   /// Pictures of a pair, by their kinds.
@@ -183,6 +188,14 @@ class Comparison {
   static bool is_pair_of_files(const FrameComparison& row) {
     return !row.reference_path.empty() && !row.actual_path.empty();
   }
+  /// @throws IoError about a side without a frame
+  [[noreturn]] void refuse_empty(const std::string& name) const {
+    std::error_code error;
+    const bool is_there = is_picture_pattern(name) || std::filesystem::exists(name, error);
+    throw IoError(is_there
+                      ? "compare: " + result_.problem
+                      : fmt::format("compare: cannot read '{}': {}", name, error_text(ENOENT)));
+  }
   const FrameComparison& pair() const {
     if (pair_) return *pair_;
     throw UsageError(fmt::format(
@@ -206,6 +219,7 @@ class Comparison {
 
   ComparisonJob job_;
   bool are_files_;
+  bool is_named_;  // whether a side is a file, which lines name
   ComparisonResult result_;
   std::optional<FrameComparison> pair_;
   std::vector<FrameComparison> rows_;  // without pictures
@@ -228,12 +242,12 @@ py::tuple tuple_of(const PixelRect& rect) {
 }
 
 /// The fields of the package's Comparison.
-py::dict fields_of(const FrameComparison& row) {
+py::dict fields_of(const Comparison& comparison, const FrameComparison& row) {
   py::dict fields;
   fields["name"] = printable(row.name);
   fields["ok"] = row.is_accepted();
   fields["outcome"] = name_of(row.outcome);
-  fields["lines"] = py::make_tuple(Comparison::line_of(row));
+  fields["lines"] = py::make_tuple(comparison.line_of(row));
   if (!row.difference) return fields;
   const Difference& d = *row.difference;
   fields["different_pixels"] = d.different_pixels;
@@ -249,7 +263,7 @@ py::dict fields_of(const FrameComparison& row) {
 
 py::list rows_of(const Comparison& comparison) {
   py::list rows;
-  for (const FrameComparison& row : comparison.rows()) rows.append(fields_of(row));
+  for (const FrameComparison& row : comparison.rows()) rows.append(fields_of(comparison, row));
   return rows;
 }
 

@@ -31,7 +31,7 @@ class Comparison(GoldenResult):
     of several frames, whose numbers the ``rows`` have.
     """
 
-    #: For people: the name of the file; empty if both sides are in memory.
+    #: For people: the name of the file, or "the picture".
     name: str = ""
     #: Pixels in which any sample differs.
     different_pixels: int | None = None
@@ -138,6 +138,34 @@ def _window(given: Any) -> bytes | None:
     return None if given is None else scalar("max_window", given)
 
 
+#: The arguments of compare() that say what is accepted.
+TOLERANCE = ("max_delta", "threshold", "count_antialiasing", "ignore_transparent", "max_pixels",
+             "hard_delta", "max_window", "masks")
+_FLAGS = ("count_antialiasing", "ignore_transparent")
+
+
+def judge(
+    reference: _piblocks.Picture, actual: _piblocks.Picture, **tolerance: Any
+) -> Comparison:
+    """compare() of pictures that the extension has."""
+    for name in tolerance:
+        if name not in TOLERANCE:
+            raise TypeError(f"compare: there is no argument '{name}'; use {', '.join(TOLERANCE)}")
+    masks = _masks(tolerance.pop("masks", None))
+    window = _window(tolerance.pop("max_window", None))
+    for name in _FLAGS:
+        tolerance[name] = flag(name, tolerance.get(name, False))
+    given = options({f"--{name.replace('_', '-')}": one for name, one in tolerance.items()})
+    if window is not None:
+        given[b"--max-window"] = window
+    made = _piblocks.compare(reference, actual, given, masks)
+    rows = made.rows
+    if made.is_pair:
+        return Comparison(**rows[0], _made=made)
+    return Comparison(made.ok, made.outcome, tuple(made.lines), _made=made,
+                      rows=tuple(Comparison(**row) for row in rows))
+
+
 def compare(
     reference: Any,
     actual: Any,
@@ -175,17 +203,7 @@ def compare(
     :raises UsageError: if a tolerance, a mask or an array makes no sense. :raises IoError: if a
         picture cannot be read. :raises TypeError: for any other value.
     """
-    given = options({"--max-delta": max_delta, "--threshold": threshold,
-                     "--count-antialiasing": flag("count_antialiasing", count_antialiasing),
-                     "--ignore-transparent": flag("ignore_transparent", ignore_transparent),
-                     "--max-pixels": max_pixels, "--hard-delta": hard_delta})
-    window = _window(max_window)
-    if window is not None:
-        given[b"--max-window"] = window
-    made = _piblocks.compare(picture("reference", reference), picture("actual", actual), given,
-                             _masks(masks))
-    rows = made.rows
-    if len(rows) == 1 and made.is_pair:
-        return Comparison(**rows[0], _made=made)
-    return Comparison(made.ok, made.outcome, tuple(made.lines), _made=made,
-                      rows=tuple(Comparison(**row) for row in rows))
+    return judge(picture("reference", reference), picture("actual", actual), max_delta=max_delta,
+                 threshold=threshold, count_antialiasing=count_antialiasing,
+                 ignore_transparent=ignore_transparent, max_pixels=max_pixels,
+                 hard_delta=hard_delta, max_window=max_window, masks=masks)

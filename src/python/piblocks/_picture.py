@@ -74,6 +74,8 @@ def picture(name: str, given: Any) -> _piblocks.Picture:
     if isinstance(given, (str, os.PathLike)):
         return _piblocks.picture_of_path(path(name, given))
     if isinstance(given, (bytes, bytearray)) or isinstance(given, memoryview) and given.ndim == 1:
+        if not bytes(given[:8]) == b"\x89PNG\r\n\x1a\n":
+            raise UsageError(f"{name}: the bytes are no PNG file; give those of one, or an array")
         return _piblocks.picture_of_png(bytes(given))
     if hasattr(given, "savefig"):
         file = io.BytesIO()
