@@ -161,6 +161,7 @@ struct ComparisonResult {
   std::int64_t actual_frames = 0;     ///< that the actual side has, read or not
   /// Why a side has no frame, or why no picture of one side is paired with one of the other.
   std::string problem;
+  std::string note;  ///< on all rows: that one video shows the other one, some frames later
 
   std::int64_t count(Outcome outcome) const { return rows[static_cast<std::size_t>(outcome)]; }
   std::int64_t total() const;  ///< number of rows

@@ -17,6 +17,7 @@
 #include "core/threads.hpp"
 #include "core/waiting_thread.hpp"
 #include "golden/frame_pair.hpp"
+#include "golden/frame_shift.hpp"
 #include "golden/frame_side.hpp"
 #include "golden/hash_file.hpp"
 #include "golden/picture_list.hpp"
@@ -63,13 +64,15 @@ class PairTaker {
 };
 
 /// Compares frame by frame. Both sides are read at once, since reading is nearly all of the work.
-void compare_sides(FrameSide& reference, FrameSide& actual, const ComparisonJob& job,
-                   PairTaker& taker, const std::stop_token& stop) {
+/// @returns how the frames of one side are shifted, if they are
+std::string compare_sides(FrameSide& reference, FrameSide& actual, const ComparisonJob& job,
+                          PairTaker& taker, const std::stop_token& stop) {
+  FrameShift shift;
   while (true) {
     check_stop(stop);
     const auto a = reference.next_step();
     const auto b = actual.next_step();
-    if (!a && !b) return;
+    if (!a && !b) return shift.text();
     std::pair<FrameSide*, bool> first(&reference, a && (!b || *a <= *b));
     std::pair<FrameSide*, bool> second(&actual, b && (!a || *b <= *a));
     auto [expected, found] =
@@ -83,9 +86,11 @@ void compare_sides(FrameSide& reference, FrameSide& actual, const ComparisonJob&
     };
     const bool ends = is_broken(reference, expected) || is_broken(actual, found);
     if (expected.is_there || found.is_there) {
-      taker.take(compare_frames(std::move(expected), std::move(found), job));
+      ComparedPair pair = compare_frames(std::move(expected), std::move(found), job);
+      shift.add(first.second ? *a : *b, pair.row);
+      taker.take(std::move(pair));
     }
-    if (ends) return;
+    if (ends) return shift.text();
   }
 }
 
@@ -179,7 +184,7 @@ void compare_frames_of(const ComparisonJob& job, Rows& rows, const std::stop_tok
   } else {
     const auto reference = open_side(job.reference, job, rows, stop);
     const auto actual = open_side(job.actual, job, rows, stop);
-    compare_sides(*reference, *actual, job, taker, stop);
+    rows.set_note(compare_sides(*reference, *actual, job, taker, stop));
   }
   taker.finish();
 }

@@ -155,6 +155,7 @@ std::string summary_text(const ComparisonJob& job, const ComparisonResult& resul
     const std::int64_t count = result.count(outcome);
     if (count > 0) add(fmt::format("{} {}", count, name_of(outcome)));
   }
+  if (!result.note.empty()) text += "; " + result.note;
   return text;
 }
 

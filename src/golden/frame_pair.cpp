@@ -70,12 +70,17 @@ Image shown_picture(FrameReader& frame) {
   }
 }
 
-/// Converts the picture when it is first asked for.
-std::function<Image()> picture_of(const std::shared_ptr<FrameReader>& frame) {
-  return [frame, picture = std::optional<Image>()]() mutable {
-    if (!picture) picture = shown_picture(*frame);
-    return *picture;
+/// Makes it when it is first asked for, since several reports may want it.
+template <typename Make>
+auto made_once(Make make) {
+  return [make, made = std::optional<std::invoke_result_t<Make&>>()]() mutable {
+    if (!made) made = make();
+    return *made;
   };
+}
+
+std::function<Image()> picture_of(const std::shared_ptr<FrameReader>& frame) {
+  return made_once([frame] { return shown_picture(*frame); });
 }
 
 /// Starting one takes as long as reading a small file.
@@ -247,11 +252,12 @@ void compare_samples(Fetched reference, Fetched actual, const ComparisonJob& job
   row.outcome = is_same                       ? Outcome::equal
                 : row.difference->is_accepted ? Outcome::accepted
                                               : Outcome::different;
-  row.deltas = [pair, masks = row.masks, ignores_transparent = job.tolerance.ignores_transparent] {
-    return pair->apply([&](const auto& a, const auto& b) {
-      return pixel_deltas(a, b, masks, ignores_transparent);
-    });
-  };
+  row.deltas =
+      made_once([pair, masks = row.masks, ignores_transparent = job.tolerance.ignores_transparent] {
+        return pair->apply([&](const auto& a, const auto& b) {
+          return pixel_deltas(a, b, masks, ignores_transparent);
+        });
+      });
 }
 
 }  // namespace

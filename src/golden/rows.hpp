@@ -24,6 +24,7 @@ class Rows {
   void set_problem(const std::string& problem) {
     if (result_.problem.empty()) result_.problem = problem;
   }
+  void set_note(const std::string& note) { result_.note = note; }
   /// The result. A comparison in which a side has no frame is never equal.
   ComparisonResult finish(const ComparisonJob& job);
 

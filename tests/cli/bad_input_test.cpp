@@ -66,8 +66,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "golden --help'"},
         BadInput{{"golden", "forget"}, "golden: unknown command 'forget': use one of record,"},
         BadInput{{"golden", "check"},
-                 "golden check: missing SCENE ... and --dir DIR; see 'piblocks "
-                 "golden check --help'"},
+                 "golden check: missing SCENE ...; see 'piblocks golden check --help'"},
+        BadInput{
+            {"golden", "check", "scene.toml"},
+            "golden: missing the folder of the references: --dir DIR for scenes, --against DIR",
+            "red.mass = 3"},
         BadInput{{"golden", "check", "--dri", "a"}, "golden check: unknown option '--dri'"},
         BadInput{{"golden", "check", "--dir", "a", "none.toml"}, "cannot read 'none.toml'"},
         BadInput{{"golden", "check", "--dir", "a", "scene.toml", "scene.toml"},

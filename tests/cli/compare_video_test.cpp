@@ -102,6 +102,46 @@ TEST_F(CompareVideoTest, AStreamThatDoesNotKnowItsSizeIsWhole) {
   EXPECT_EQ(compare({"a.mkv", "a.mkv"}).exit_code, 0);
 }
 
+/// "5 frames before", or nothing.
+std::string shift_in(const std::string& lines) {
+  const std::string kBegin = "frames look like those of the reference ";
+  const std::size_t at = lines.find(kBegin);
+  return at == std::string::npos ? "" : lines.substr(at + kBegin.size());
+}
+
+TEST_F(CompareVideoTest, AShiftByWholeFramesIsTold) {
+  const auto film = [&](const std::string& name, int first, const Arguments& options) {
+    output_of(Arguments{"render", "--quiet", "--digits", "2", "--size", "160x90", "--fps", "30",
+                        "--from", std::to_string(first) + "/30", "--to", "4", "-o", name} +
+              options);
+  };
+  film("a.mp4", 30, {});
+  for (const int shift : {-24, -7, -1, 1, 2, 13}) {
+    film("b.y4m", 30 + shift, {});
+    film("b.mp4", 30 + shift, {"--encoder", "libx264", "--crf", "23"});
+    const std::string frames = shift * shift == 1 ? " frame " : " frames ";
+    const std::string text =
+        std::to_string(std::abs(shift)) + frames + (shift < 0 ? "before them" : "after them");
+    for (const char* const name : {"b.y4m", "b.mp4"}) {
+      EXPECT_EQ(shift_in(compare({"a.mp4", name}).out), text + '\n') << name;
+    }
+  }
+}
+
+TEST_F(CompareVideoTest, WhatDiffersOtherwiseIsNoShift) {
+  const Arguments common = {"render", "--quiet", "--size", "160x90", "--fps", "30", "--to", "4"};
+  output_of(common + Arguments{"--digits", "2", "-o", "a.mp4"});
+  output_of(common + Arguments{"--digits", "3", "-o", "digits.mp4"});
+  output_of(common + Arguments{"--digits", "2", "--theme", "lecture", "-o", "theme.mp4"});
+  output_of(common + Arguments{"--digits", "2", "--encoder", "libx264", "-o", "encoder.mp4"});
+  output_of(common + Arguments{"--digits", "2", "--speed", "1.04", "-o", "speed.mp4"});
+  for (const char* const name : {"digits.mp4", "theme.mp4", "encoder.mp4", "speed.mp4"}) {
+    const CommandResult result = compare({"a.mp4", name});
+    EXPECT_NE(result.exit_code, 0) << name;
+    EXPECT_EQ(shift_in(result.out), "") << name;
+  }
+}
+
 TEST_F(CompareVideoTest, SeveralVideosInAFileAreRefused) {
   const std::string two = kTestPicture + "-f lavfi -i color=red:s=64x48:d=1:r=10 ";
   if (!ffmpeg(two + "-map 0 -map 1 a.mkv")) GTEST_SKIP() << "no ffmpeg here";

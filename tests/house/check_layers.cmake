@@ -75,7 +75,7 @@ set(public_libraries GMP Eigen)
 set(standard_form "[a-z_0-9]+")
 # POSIX and the processor's vector instructions: anywhere but in a public header.
 string(CONCAT system_form
-  "(cxxabi|dirent|dlfcn|fcntl|link|poll|pthread|sched|signal|spawn|stdlib|termios|unistd)\\.h|sys/[a-z_]+\\.h"
+  "(cxxabi|dirent|dlfcn|fcntl|fnmatch|link|poll|pthread|sched|signal|spawn|stdlib|termios|unistd)\\.h|sys/[a-z_]+\\.h"
   "|[a-z0-9]+intrin\\.h")
 
 
