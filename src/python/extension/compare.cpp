@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -144,8 +145,12 @@ class Comparison {
   }
 
   /// Pictures of a pair, by their kinds.
-  std::vector<FramePicture> pictures() const { return pictures_of(pair()); }
+  std::vector<FramePicture> pictures() const {
+    const std::scoped_lock lock(mutex_);
+    return pictures_of(pair());
+  }
   std::vector<std::uint8_t> deltas() const {
+    const std::scoped_lock lock(mutex_);
     if (pair().deltas) return pair().deltas();
     throw UsageError(fmt::format("compare: there are no deltas: {}", difference_text(pair())));
   }
@@ -170,9 +175,13 @@ class Comparison {
   void report(const std::string& page, const std::stop_token& stop) const {
     check_output(page);
     const auto report = html_report(page, ReportForm::one_file);
-    if (pair_) report->add(*pair_);
+    if (pair_) {
+      const std::scoped_lock lock(mutex_);
+      report->add(*pair_);
+      return report->finish(job_, result_);
+    }
     const auto add = [&](const FrameComparison& row) { report->add(row); };
-    report->finish(job_, pair_ ? result_ : compare_files(job_, add, stop));
+    report->finish(job_, compare_files(job_, add, stop));
   }
 
  private:
@@ -222,6 +231,7 @@ class Comparison {
   bool is_named_;  // whether a side is a file, which lines name
   ComparisonResult result_;
   std::optional<FrameComparison> pair_;
+  mutable std::mutex mutex_;           // of the pair's functions, which keep what they have made
   std::vector<FrameComparison> rows_;  // without pictures
   Lines lines_;
 };

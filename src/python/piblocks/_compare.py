@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from html import escape
 from numbers import Integral
 from typing import Any, Union
@@ -50,13 +50,13 @@ class Comparison(GoldenResult):
     densest: tuple[int, int, int, int] | None = None
     #: Pixels that are off there.
     densest_off: int | None = None
-    #: A comparison for each frame; of two pictures, this one alone.
-    rows: tuple[Comparison, ...] = ()
-    _made: Any = field(default=None, repr=False)
+    _rows: tuple[Comparison, ...] = ()
+    _made: Any = None
 
-    def __post_init__(self) -> None:
-        if not self.rows:
-            object.__setattr__(self, "rows", (self,))
+    @property
+    def rows(self) -> tuple[Comparison, ...]:
+        """A comparison for each frame, without pictures; of two pictures, this one alone."""
+        return self._rows or (self,)
 
     def _pair(self) -> _piblocks.Comparison:
         if self._made is None:
@@ -102,12 +102,10 @@ class Comparison(GoldenResult):
         self._pair().report(path("file", file))
 
     def _repr_html_(self) -> str:
-        if len(self.rows) == 1 and self._made is not None:
-            try:
-                return pictures_html(str(self), self._made.pictures())
-            except Error:  # a file is gone
-                pass
-        return f"<pre>{escape(str(self))}</pre>"
+        try:
+            return pictures_html(str(self), self._pair().pictures())
+        except Error:  # of several frames; or a file is gone
+            return f"<pre>{escape(str(self))}</pre>"
 
 
 def _masks(given: Any) -> list[Union[bytes, _piblocks.Picture]]:
@@ -163,7 +161,7 @@ def judge(
     if made.is_pair:
         return Comparison(**rows[0], _made=made)
     return Comparison(made.ok, made.outcome, tuple(made.lines), _made=made,
-                      rows=tuple(Comparison(**row) for row in rows))
+                      _rows=tuple(Comparison(**row) for row in rows))
 
 
 def compare(
