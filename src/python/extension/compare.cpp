@@ -127,7 +127,8 @@ class Comparison {
       }
       result_ = compare_pair(std::move(expected), std::move(found), job_, take_row);
     }
-    if (pair_ && pair_->outcome == Outcome::unreadable) throw IoError(pair_->problem);
+    const bool is_alone = rows_.size() == 1;
+    if (is_alone && rows_[0].outcome == Outcome::unreadable) throw IoError(rows_[0].problem);
     if (result_.reference_frames == 0) refuse_empty(job_.reference);
     if (result_.actual_frames == 0) refuse_empty(job_.actual);
   }

@@ -89,7 +89,7 @@ class Comparison(GoldenResult):
     def save(self, file: Union[str, os.PathLike[str]]) -> None:
         """Writes the picture of the difference, ``png("diff")``, to a file.
 
-        :raises UsageError: as ``png()``, or if it would replace a file that was compared.
+        :raises UsageError: as ``png()``; or if the file cannot be made, or was compared.
         :raises IoError: if it cannot be written.
         """
         self._pair().save(path("file", file))

@@ -46,7 +46,8 @@ def _of_array(name: str, array: np.ndarray[Any, Any]) -> _piblocks.Picture:
 
 
 def _of_pillow(name: str, image: Any) -> _piblocks.Picture:
-    if image.mode in ("RGBa", "La", "LA", "PA") or "transparency" in image.info:
+    # Palettes may have alpha.
+    if image.mode in ("P", "PA", "LA", "La", "RGBa") or "transparency" in image.info:
         image = image.convert("RGBA")
     elif image.mode not in ("L", "RGB", "RGBA", "I", "F") and not image.mode.startswith("I;16"):
         image = image.convert("RGB")

@@ -1,0 +1,439 @@
+"""piblocks.compare: every kind of picture, by an independent computation; what is rejected."""
+
+import gc
+import io
+import os
+import re
+import subprocess
+import sys
+import weakref
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import in_threads
+
+import piblocks
+from piblocks import Scene, compare
+
+
+def noise(*shape, seed=1, dtype=np.uint8):
+    return np.random.default_rng(seed).integers(0, np.iinfo(dtype).max, shape, dtype, endpoint=True)
+
+
+def changed(picture, count, by, seed=2):
+    """The picture with so many samples changed by up to so much."""
+    random = np.random.default_rng(seed)
+    other = picture.astype(np.int64)
+    flat = other.reshape(-1)
+    flat[random.choice(flat.size, count, replace=False)] += random.integers(-by, by + 1, count)
+    return np.clip(other, 0, np.iinfo(picture.dtype).max).astype(picture.dtype)
+
+
+def png_of(picture):
+    """By somebody else's program."""
+    image = pytest.importorskip("PIL.Image", reason="there is no Pillow (python3-pil)")
+    file = io.BytesIO()
+    image.fromarray(picture).save(file, "PNG")
+    return file.getvalue()
+
+
+def png_of_piblocks(picture):
+    return piblocks._piblocks.picture_of_samples(picture).png()
+
+
+class Figure:
+    """A figure of matplotlib, as far as it is used."""
+
+    def __init__(self, picture):
+        self._picture = picture
+
+    def savefig(self, file, format):
+        assert format == "png"
+        file.write(png_of_piblocks(self._picture))
+
+
+class Canvas:
+    def __init__(self, picture):
+        self._picture = picture
+        self._drawn = None
+
+    def draw(self):
+        self._drawn = self._picture
+
+    def buffer_rgba(self):
+        return memoryview(self._drawn)
+
+
+@pytest.mark.parametrize("shape", [(33, 47), (33, 47, 3), (33, 47, 4)])
+@pytest.mark.parametrize("dtype, by", [(np.uint8, 9), (np.uint16, 900)])
+@pytest.mark.parametrize("max_delta", [0, 2, "2.5"])
+def test_numbers_are_those_of_numpy(shape, dtype, by, max_delta):
+    expected = noise(*shape, dtype=dtype)
+    actual = changed(expected, 60, by)
+    full = np.iinfo(dtype).max
+    deltas = np.abs(expected.astype(np.int64) - actual)
+    if deltas.ndim == 2:
+        deltas = deltas[..., np.newaxis]
+    of_pixel = deltas.max(axis=2)
+    off = of_pixel * 255 > float(max_delta) * full
+    windows = np.lib.stride_tricks.sliding_window_view(off, (16, 16)).sum(axis=(2, 3))
+
+    result = compare(expected, actual, max_delta=max_delta)
+    assert not result and result.outcome == "different" and result.max_level == full
+    assert result.different_pixels == np.count_nonzero(of_pixel)
+    assert result.off_pixels == np.count_nonzero(off) > 0
+    assert result.largest_delta == of_pixel.max()
+    y, x, channel = np.argwhere(deltas)[0]
+    assert result.first == (x, y, channel)
+    y, x = np.argwhere(windows == windows.max())[0]
+    assert result.densest == (x, y, 16, 16) and result.densest_off == windows.max()
+    assert np.array_equal(result.deltas(), np.ceil(of_pixel * 255 / full))
+    # What is bounded by these numbers is accepted, and what is bounded by one less is not.
+    given = {"max_delta": max_delta}
+    for name, bound in [("max_pixels", result.off_pixels),
+                        ("max_window", (16, result.densest_off))]:
+        less = bound - 1 if name == "max_pixels" else (16, bound[1] - 1)
+        assert compare(expected, actual, **given, **{name: bound})
+        assert not compare(expected, actual, **given, **{name: less})
+    percent = 100 * result.off_pixels / off.size
+    assert compare(expected, actual, **given, max_pixels=f"{percent + 0.01:.4f}%")
+    assert not compare(expected, actual, **given, max_pixels=f"{percent - 0.01:.4f}%")
+    hard = result.largest_delta * 255 / full
+    assert compare(expected, actual, max_pixels=10**6, hard_delta=hard + 0.001)
+    assert not compare(expected, actual, max_pixels=10**6, hard_delta=hard - 0.001)
+
+
+def test_every_kind_of_picture_is_the_same_picture():
+    picture = noise(20, 30, 4)
+    other = changed(picture, 7, 99)
+    png = png_of_piblocks(picture)
+    Path("a.png").write_bytes(png)
+    kinds = [picture, png, bytearray(png), memoryview(png), "a.png", Path("a.png"), Figure(picture),
+             Canvas(picture), memoryview(picture), np.asfortranarray(picture),
+             np.repeat(picture, 2, axis=1)[:, ::2], png_of(picture)]
+    number = compare(picture, other).different_pixels
+    for kind in kinds:
+        for same in kinds:
+            assert compare(kind, same).outcome == "equal"
+        assert compare(kind, other).different_pixels == number
+        assert compare(other, kind).different_pixels == number
+
+
+@pytest.mark.parametrize("mode", ["1", "L", "LA", "P", "RGB", "RGBA", "CMYK", "YCbCr", "I;16"])
+def test_images_of_pillow(mode):
+    image = pytest.importorskip("PIL.Image", reason="there is no Pillow (python3-pil)")
+    if mode == "I;16":
+        deep = noise(20, 30, dtype=np.uint16)
+        given = image.frombuffer("I;16", (30, 20), deep.tobytes(), "raw", "I;16", 0, 1)
+        assert compare(given, deep) and not compare(given, deep + 1)
+        return
+    given = image.fromarray(noise(20, 30, 4)).convert(mode)
+    assert compare(given, np.asarray(given.convert("RGBA")))
+    black = image.new(mode, given.size)
+    assert not compare(given, black)
+    if mode not in ("CMYK", "YCbCr"):  # no PNG file has these
+        given.save("a.png")
+        assert compare(given, "a.png")
+
+
+def test_greys_are_opaque_colours():
+    grey = noise(9, 8)
+    colours = np.stack([grey] * 3, axis=2)
+    assert compare(grey, colours)
+    assert compare(grey[..., np.newaxis], np.dstack([colours, np.full_like(grey, 255)]))
+    assert not compare(grey, np.dstack([colours, np.full_like(grey, 254)]))
+    assert compare(grey, grey.astype(np.uint16) * 257)
+    assert compare(grey.astype(">u2") * 257, grey)
+
+
+def test_deep_pictures_keep_their_depth_in_files():
+    deep = noise(9, 8, 4, dtype=np.uint16)
+    Path("deep.png").write_bytes(png_of_piblocks(deep))
+    other = deep.copy()
+    other[3, 4, 2] ^= 1
+    result = compare("deep.png", other)
+    assert compare("deep.png", deep) and result.largest_delta == 1 and result.max_level == 65535
+    assert result.first == (4, 3, 2) and "0.00390 of 255 (1 of 65535)" in str(result)
+
+
+def test_a_figure_of_matplotlib():
+    matplotlib = pytest.importorskip("matplotlib", reason="there is no matplotlib (python3-matplotlib)")
+    matplotlib.use("Agg")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as RealFigure
+
+    def figure(last):
+        made = RealFigure(figsize=(3, 2))
+        made.subplots().plot([1, 2, last])
+        return made
+
+    assert compare(figure(3), figure(3))
+    result = compare(figure(3), figure(4))
+    assert not result and result.different_pixels > 10
+    drawn = FigureCanvasAgg(figure(3))
+    figure(3).savefig("a.png")
+    assert compare(drawn, drawn) and compare("a.png", figure(3))
+
+
+def test_importing_the_package_imports_no_library_of_pictures():
+    code = ("import sys, piblocks, numpy; piblocks.compare(numpy.zeros((2, 2), 'u1'), "
+            "numpy.zeros((2, 2), 'u1')); print([m for m in ('PIL', 'matplotlib') if m in "
+            "sys.modules])")
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True,
+                          text=True).stdout == "[]\n"
+
+
+def test_what_a_result_says():
+    picture = noise(20, 30, 3)
+    other = picture.copy()
+    other[3, 4, 1] ^= 255
+    equal = compare(picture, picture)
+    assert equal and str(equal) == "equal" and equal.first is None and equal.densest is None
+    assert (equal.different_pixels, equal.off_pixels, equal.largest_delta) == (0, 0, 0)
+    different = compare(picture, other)
+    assert re.fullmatch(r"1 pixel differs, largest delta \d+ of 255, first at x=4 y=3 \(green\), "
+                        r"densest 16x16 window at x=0 y=0: 1", str(different))
+    assert repr(different) == f"<Comparison different: {different}>"
+    with pytest.raises(AssertionError, match="Comparison different: 1 pixel differs"):
+        assert different, repr(different)
+    accepted = compare(picture, other, max_pixels=1)
+    assert accepted and accepted.outcome == "accepted" and "within tolerance" in str(accepted)
+    assert different.rows == (different,)
+    size = compare(picture, other[:10])
+    assert not size and size.outcome == "not comparable" and size.different_pixels is None
+    assert str(size) == "another size: 30x10 instead of 30x20"
+
+
+def test_lines_are_those_of_the_command_line(program):
+    picture = noise(20, 30, 3)
+    for name, one in [("a.png", picture), ("b.png", changed(picture, 5, 50))]:
+        Path(name).write_bytes(png_of_piblocks(one))
+    for options, tolerance in [
+        ([], {}),
+        (["--max-delta", "20.5"], {"max_delta": 20.5}),
+        (["--threshold", "0.1", "--count-antialiasing"],
+         {"threshold": 0.1, "count_antialiasing": True}),
+        (["--max-window", "4:0", "--hard-delta", "9"], {"max_window": "4:0", "hard_delta": 9}),
+        (["--ignore-transparent", "--mask", "3x4+1+2", "--mask", "30x1+0+0"],
+         {"ignore_transparent": True, "masks": [(1, 2, 3, 4), "30x1+0+0"]}),
+    ]:
+        said = program("compare", "a.png", "b.png", *options, check=False)
+        result = compare("a.png", "b.png", **tolerance)
+        assert said.returncode == (0 if result else 1)
+        assert said.stdout.decode().splitlines()[0] == str(result)
+
+
+def test_folders_and_videos_have_rows(program):
+    for folder in ("a", "b"):
+        os.mkdir(folder)
+    picture = noise(20, 30, 3)
+    shown = {"a": {"0": picture, "1": picture, "2": picture, "3": picture},
+             "b": {"0": picture, "1": changed(picture, 5, 50), "2": picture[:10], "4": picture}}
+    for folder, pictures in shown.items():
+        for name, one in pictures.items():
+            Path(folder, name + ".png").write_bytes(png_of_piblocks(one))
+    result = compare("a", Path("b"))
+    assert not result and result.different_pixels is None
+    assert [(row.name, row.outcome) for row in result.rows] == [
+        ("0.png", "equal"), ("1.png", "different"), ("2.png", "not comparable"),
+        ("3.png", "missing"), ("4.png", "new")]
+    assert result.rows[1].first == compare(picture, shown["b"]["1"]).first
+    said = program("compare", "a", "b", check=False).stdout.decode().splitlines()
+    assert list(result.lines) == said and str(result).splitlines() == said
+    assert result._repr_html_().startswith("<pre>2.png: another size")
+    result.report("page.html")
+    assert b"1.png" in Path("page.html").read_bytes()
+    for action in (result.png, result.deltas, lambda: result.save("c.png"), result.rows[1].png):
+        with pytest.raises(piblocks.UsageError, match="compare two pictures|its two pictures"):
+            action()
+    scene = Scene(1, view_size="64x36", view_fps=5)
+    scene.render("a.mp4")
+    scene.render("frames/%06d.png")
+    assert len(compare("a.mp4", "a.mp4").rows) == len(scene.frames())
+    assert compare("a.mp4", "frames/%06d.png", max_delta=100)
+
+
+def test_masks():
+    picture = noise(20, 30, 3)
+    other = picture.copy()
+    other[5:9, 3:7] ^= 1
+    outside = np.zeros((20, 30), bool)
+    outside[5:9, 3:7] = True
+    Path("mask.png").write_bytes(png_of_piblocks(255 * outside.astype(np.uint8)))
+    for masks in [(3, 5, 4, 4), [(3, 5, 4, 4)], "4x4+3+5", ["4x4+3+5"], outside, [outside],
+                  255 * outside.astype(np.uint8), "mask.png", Path("mask.png"),
+                  [Path("mask.png").read_bytes()], [(3, 5, 4, 2), np.array([3, 7, 4, 2]).tolist()]]:
+        result = compare(picture, other, masks=masks)
+        assert result and result.outcome == "accepted", masks
+        assert result.masked_pixels == 16 and result.different_pixels == 0
+    part = compare(picture, other, masks=[(3, 5, 4, 1)])
+    assert not part and part.different_pixels == 12 and part.masked_pixels == 4
+    assert np.count_nonzero(part.deltas()) == 12
+
+
+def test_what_looks_alike_and_what_is_transparent():
+    picture = np.full((20, 30, 4), 200, np.uint8)
+    near = picture.copy()
+    near[3, 4, 0] += 3
+    assert not compare(picture, near) and compare(picture, near, threshold=0.1)
+    clear, other = picture.copy(), picture.copy()
+    clear[..., 3] = other[..., 3] = 0
+    other[..., 0] = 9
+    assert not compare(clear, other) and compare(clear, other, ignore_transparent=True)
+
+
+def test_pictures_of_a_difference():
+    picture = np.full((20, 30, 3), 255, np.uint8)
+    other = picture.copy()
+    other[3, 4] = 0
+    Path("a.png").write_bytes(png_of_piblocks(picture))
+    result = compare("a.png", other)
+    assert result.png("expected") == Path("a.png").read_bytes()
+    assert compare(result.png("actual"), other)
+    red = picture.copy()
+    red[3, 4, 1:] = 0
+    assert compare(result.png(), red), "red where it differs, white elsewhere"
+    result.save("diff.png")
+    assert Path("diff.png").read_bytes() == result.png("diff")
+    with pytest.raises(piblocks.UsageError, match="file.*a.png|a.png.*the reference"):
+        result.save("a.png")
+    with pytest.raises(piblocks.UsageError, match="cannot open 'a.png/b.png': Not a directory"):
+        result.save("a.png/b.png")
+    html = result._repr_html_()
+    assert html.count("data:image/png;base64,") == 3
+    assert [html.index(f"<figcaption>{kind}") for kind in ("expected", "actual", "diff")]
+    result.report("page.html")
+    assert b"1 pixel differs" in Path("page.html").read_bytes()
+    os.remove("a.png")
+    assert result.png("actual") and result._repr_html_()
+
+
+def test_large_pictures_stay_out_of_notebooks():
+    picture = noise(1500, 1500, 3)
+    html = compare(picture, changed(picture, 5, 5))._repr_html_()
+    assert len(html) < 1000 and "would add" in html
+
+
+def test_results_are_freed_at_once():
+    gc.disable()
+    try:
+        result = compare(noise(20, 30), noise(20, 30, seed=3))
+        freed = weakref.ref(result)
+        del result
+        assert freed() is None
+    finally:
+        gc.enable()
+
+
+def test_threads_may_share_a_result():
+    picture = noise(200, 300, 3)
+    result = compare(picture, changed(picture, 500, 50))
+    expected = (result.png(), result.deltas().tobytes())
+    found = [None] * 8
+
+    def work(place):
+        found[place] = (result.png(), result.deltas().tobytes())
+
+    in_threads(work, range(8))
+    assert found == [expected] * 8
+
+
+GREY = np.zeros((4, 5), np.uint8)
+
+
+@pytest.mark.parametrize(
+    "picture, message",
+    [
+        (GREY / 255, r"reference: samples are float64; .*\(255 \* picture\).round\(\)"),
+        (GREY > 0, r"reference: samples are bool; give 255 \* picture.astype\('uint8'\)"),
+        (GREY.astype(int), r"reference: samples are int64; give picture.astype\('uint8'\)"),
+        (GREY.astype(np.uint32), "reference: samples are uint32"),
+        (np.array(["a"]), "reference: samples are <U1"),
+        (GREY[0], "reference: the array is 5; it must be height x width"),
+        (np.uint8(3) + np.zeros((), np.uint8), "reference: the array is a number; it must be"),
+        (np.zeros((4, 5, 2), np.uint8), "reference: the array is 4 x 5 x 2"),
+        (np.zeros((3, 4, 5), np.uint8), "reference: the array is 3 x 4 x 5"),
+        (np.zeros((0, 5), np.uint8), "compare: cannot take a picture of 5x0 pixels"),
+        (np.lib.stride_tricks.as_strided(GREY, (1, 16385), (0, 0)), "picture of 16385x1 pixels"),
+        (b"", "reference: the bytes are no PNG file"),
+        (b"GIF89a", "reference: the bytes are no PNG file"),
+        ("a\0b", "reference: 'a.x00b' has a null character"),
+    ],
+)
+def test_pictures_that_are_none(picture, message):
+    with pytest.raises(piblocks.UsageError, match=message):
+        compare(picture, GREY)
+
+
+@pytest.mark.parametrize("given", [3, None, [1, 2], {}, object(), io.BytesIO(b"x"), 1.5])
+def test_wrong_types(given):
+    with pytest.raises(TypeError, match="actual: must be an array, an image of Pillow, .* not "
+                       + type(given).__name__):
+        compare(GREY, given)
+
+
+@pytest.mark.parametrize(
+    "tolerance, message",
+    [
+        ({"max_delta": 256}, "max_delta 256: must be a number from 0 to 255"),
+        ({"max_delta": "x"}, "max_delta x: not a number"),
+        ({"max_delta": float("nan")}, "max_delta nan: not a number"),
+        ({"hard_delta": -1}, "hard_delta -1: must be a number from 0 to 255"),
+        ({"threshold": 2}, "threshold 2: must be a number from 0 to 1"),
+        ({"threshold": 0.1, "max_delta": 1}, "threshold and max_delta: use one of them"),
+        ({"count_antialiasing": True}, "count_antialiasing belongs to threshold"),
+        ({"max_pixels": "101%"}, "max_pixels 101%: must be a number of pixels, or from 0% to 100%"),
+        ({"max_pixels": 1.5}, "max_pixels 1.5: "),
+        ({"max_window": 16}, "max_window 16: must be N:K, such as 16:40"),
+        ({"max_window": (16, 2, 3)}, "max_window 16:2:3: "),
+        ({"masks": [(0, 0, 5, 4)]}, "compare: the masks leave nothing of a picture of 5x4"),
+        ({"masks": [(0, 0, 5)]}, r"masks\[0\]: \(0, 0, 5\) must be x, y, width, height"),
+        ({"masks": [(9, 9, 5, 4)]}, "the mask 5x4.9.9 lies outside of every picture"),
+        ({"masks": ["5x4"]}, r"masks 5x4: must be WxH\+X\+Y"),
+        ({"masks": [(-1, 0, 2, 2)]}, "masks 2x2"),
+        ({"masks": ["no.png"]}, "masks no.png: png: cannot read 'no.png'"),
+        ({"masks": [Path("no.png")]}, r"masks\[0\]: png: cannot read 'no.png'"),
+        ({"masks": [GREY]}, r"masks\[0\]: all of it is black or transparent"),
+        ({"masks": [GREY[:2] + 1]}, r"the mask masks\[0\] is 5x2, and 'the picture' is 5x4"),
+    ],
+)
+def test_tolerances_that_make_no_sense(tolerance, message):
+    with pytest.raises(piblocks.UsageError, match=message):
+        compare(GREY, GREY, **tolerance)
+
+
+@pytest.mark.parametrize("tolerance, message", [
+    ({"max_delta": [None]}, "max_delta: must be a number"),
+    ({"ignore_transparent": 1}, "ignore_transparent: must be True or False"),
+    ({"masks": 3}, "masks: must be a list of masks, not int"),
+    ({"masks": [3]}, r"masks\[0\]: must be an array"),
+    ({"tolerance": 3}, "unexpected keyword argument 'tolerance'"),
+])
+def test_wrong_types_of_tolerances(tolerance, message):
+    with pytest.raises(TypeError, match=message):
+        compare(GREY, GREY, **tolerance)
+
+
+def test_files_that_cannot_be_read():
+    Path("cut.png").write_bytes(png_of_piblocks(noise(20, 30))[:300])
+    Path("text.png").write_text("no picture, but a long enough text")
+    os.mkdir("empty")
+    good = png_of_piblocks(GREY)
+    Path("good.png").write_bytes(good)
+    for other in (GREY, "good.png"):
+        for missing in ("no.png", Path("no.png")):
+            with pytest.raises(FileNotFoundError, match="cannot read 'no.png'") as caught:
+                compare(missing, other)
+            assert isinstance(caught.value, piblocks.IoError)
+        for broken in ("cut.png", "text.png"):
+            with pytest.raises(piblocks.IoError, match=broken):
+                compare(other, broken)
+    with pytest.raises(piblocks.IoError, match="png: cannot read 'the actual picture'"):
+        compare(GREY, Path("cut.png").read_bytes())
+    with pytest.raises(piblocks.IoError, match="empty"):
+        compare("empty", "empty")
+    with pytest.raises(piblocks.IoError, match="'empty': Is a directory"):
+        compare(GREY, "empty")
+    with pytest.raises(FileNotFoundError):
+        compare("nowhere", "empty")
