@@ -113,6 +113,8 @@ def test_every_kind_of_picture_is_the_same_picture():
              Canvas(picture), memoryview(picture), np.asfortranarray(picture),
              np.repeat(picture, 2, axis=1)[:, ::2], png_of(picture)]
     number = compare(picture, other).different_pixels
+    equal = compare("a.png", "a.png")
+    assert equal.different_pixels == 0 and not equal.deltas().any() and equal.png() != b""
     for kind in kinds:
         for same in kinds:
             assert compare(kind, same).outcome == "equal"

@@ -155,7 +155,11 @@ class Comparison {
     if (pair().deltas) return pair().deltas();
     throw UsageError(fmt::format("compare: there are no deltas: {}", difference_text(pair())));
   }
-  int width_px() const { return pair().width_px; }
+  /// Of a pair. Files that are equal byte by byte have not been decoded.
+  int width_px() const {
+    const std::scoped_lock lock(mutex_);
+    return pair().width_px > 0 ? pair().width_px : pair().reference().width_px;
+  }
   /// Writes the picture of the difference.
   void save(const std::string& output) const {
     for (const FramePicture& picture : pictures()) {
@@ -293,8 +297,12 @@ py::dict pictures_of_pair(const Comparison& comparison) {
 
 py::tuple deltas_of(const Comparison& comparison) {
   std::vector<std::uint8_t> deltas;
-  run_interruptibly([&](const std::stop_token&, const CallBack&) { deltas = comparison.deltas(); });
-  return py::make_tuple(comparison.width_px(), bytes_object(deltas));
+  int width_px = 0;
+  run_interruptibly([&](const std::stop_token&, const CallBack&) {
+    deltas = comparison.deltas();
+    width_px = comparison.width_px();
+  });
+  return py::make_tuple(width_px, bytes_object(deltas));
 }
 
 py::bytes png_of(const Picture& picture) {

@@ -13,6 +13,7 @@ from ._compare import Comparison, judge
 from ._errors import IoError
 from ._picture import picture
 from ._references import claim, labelled, place, results_folder, shown
+from ._values import require_str
 
 REMEDY = ("pytest --piblocks-golden-record keeps new references, --piblocks-golden-approve replaces "
           "them")
@@ -121,9 +122,10 @@ class GoldenPictures:
         """
         __tracebackhide__ = True
         folder, test = place(self._item, dir)
-        label = name
-        if label is None:
-            label = "" if "" not in self._labels else str(len(self._labels) + 1)
+        if name is not None:
+            require_str("name", name)
+        number = "" if not self._labels else str(len(self._labels) + 1)
+        label = number if name is None else name
         if label in self._labels:
             pytest.fail(f"{self._item.nodeid} has two pictures '{label}'; give one another name",
                         pytrace=False)
