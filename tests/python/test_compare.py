@@ -159,6 +159,27 @@ def test_deep_pictures_keep_their_depth_in_files():
     assert result.first == (4, 3, 2) and "0.00390 of 255 (1 of 65535)" in str(result)
 
 
+def test_files_in_memory_are_read_as_those_on_disk():
+    """Also those that libpng has to read: interlaced, deep, turned by Exif, animated."""
+    image = pytest.importorskip("PIL.Image", reason="there is no Pillow (python3-pil)")
+    picture = image.fromarray(noise(20, 30, 3))
+    turned = image.Exif()
+    turned[0x112] = 6
+    picture.save("turned.png", exif=turned)
+    picture.save("plain.png")
+    image.fromarray(noise(20, 30).astype(np.int32) * 256, "I").save("deep.png")
+    for name in ("turned.png", "plain.png", "deep.png"):
+        assert compare(name, Path(name).read_bytes()).outcome == "equal"
+    for one in ("turned.png", Path("turned.png").read_bytes()):
+        result = compare(one, "plain.png")
+        assert not result and "shown another way" in str(result)
+    picture.save("moving.png", save_all=True, append_images=[image.fromarray(noise(20, 30, 3, seed=9))])
+    for one in ("moving.png", Path("moving.png").read_bytes()):
+        with pytest.raises(piblocks.IoError, match="it is animated"):
+            compare(picture, one)
+    assert len(compare("moving.png", "moving.png").rows) == 2
+
+
 def test_a_figure_of_matplotlib():
     matplotlib = pytest.importorskip("matplotlib", reason="there is no matplotlib (python3-matplotlib)")
     matplotlib.use("Agg")
