@@ -323,6 +323,9 @@ def test_pictures_of_a_difference():
         result.save("a.png")
     with pytest.raises(piblocks.UsageError, match="cannot open 'a.png/b.png': Not a directory"):
         result.save("a.png/b.png")
+    for write in (result.save, result.report):
+        with pytest.raises(piblocks.UsageError, match="'-' is standard output only for"):
+            write("-")
     html = result._repr_html_()
     assert html.count("data:image/png;base64,") == 3
     assert [html.index(f"<figcaption>{kind}") for kind in ("expected", "actual", "diff")]

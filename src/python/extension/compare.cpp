@@ -107,6 +107,13 @@ class Lines {
   std::int64_t left_ = 0;
 };
 
+/// The file appears when it is complete.
+void write_file(const std::string& output, ByteSpan bytes) {
+  OutputFile file(output);
+  file.write(bytes);
+  file.finish();
+}
+
 /// A comparison that has been made.
 class Comparison {
  public:
@@ -163,7 +170,9 @@ class Comparison {
   /// Writes the picture of the difference.
   void save(const std::string& output) const {
     for (const FramePicture& picture : pictures()) {
-      if (picture.kind == std::string_view(kDiff)) return write(output, picture.png);
+      if (picture.kind != std::string_view(kDiff)) continue;
+      check_output(output);
+      return write_file(output, picture.png);
     }
     throw UsageError(
         fmt::format("compare: there is no difference picture: {}", difference_text(pair())));
@@ -217,18 +226,13 @@ class Comparison {
         job_.reference, job_.actual));
   }
   void check_output(const std::string& output) const {
+    refuse_standard_output(output, "compare");
     OverwriteCheck check;
     if (pair_ && !pair_->reference_path.empty())
       check.reads("the reference", pair_->reference_path);
     if (pair_ && !pair_->actual_path.empty()) check.reads("the actual picture", pair_->actual_path);
     check.writes("file", output);
     check.check();
-  }
-  void write(const std::string& output, ByteSpan bytes) const {
-    check_output(output);
-    OutputFile file(output);
-    file.write(bytes);
-    file.finish();
   }
 
   ComparisonJob job_;
@@ -288,8 +292,10 @@ py::bytes bytes_object(ByteSpan bytes) {
 
 py::dict pictures_of_pair(const Comparison& comparison) {
   std::vector<FramePicture> pictures;
-  run_interruptibly(
-      [&](const std::stop_token&, const CallBack&) { pictures = comparison.pictures(); });
+  {
+    const WithoutGil released;
+    pictures = comparison.pictures();
+  }
   py::dict files;
   for (const FramePicture& picture : pictures) files[picture.kind] = bytes_object(picture.png);
   return files;
@@ -298,27 +304,21 @@ py::dict pictures_of_pair(const Comparison& comparison) {
 py::tuple deltas_of(const Comparison& comparison) {
   std::vector<std::uint8_t> deltas;
   int width_px = 0;
-  run_interruptibly([&](const std::stop_token&, const CallBack&) {
+  {
+    const WithoutGil released;
     deltas = comparison.deltas();
     width_px = comparison.width_px();
-  });
+  }
   return py::make_tuple(width_px, bytes_object(deltas));
 }
 
 py::bytes png_of(const Picture& picture) {
   Bytes png;
-  run_interruptibly([&](const std::stop_token&, const CallBack&) { png = picture.png(); });
+  {
+    const WithoutGil released;
+    png = picture.png();
+  }
   return bytes_object(png);
-}
-
-/// A file appears when it is complete.
-void write_picture(const Picture& picture, const std::string& output) {
-  run_interruptibly([&](const std::stop_token&, const CallBack&) {
-    const Bytes png = picture.png();
-    OutputFile file(output);
-    file.write(png);
-    file.finish();
-  });
 }
 
 }  // namespace
@@ -326,7 +326,13 @@ void write_picture(const Picture& picture, const std::string& output) {
 void bind_compare(py::module_& module) {
   py::class_<Picture, std::shared_ptr<Picture>>(module, "Picture", "One side of a comparison.")
       .def("png", &png_of, "A PNG file. Raises IoError if the one that was given cannot be read.")
-      .def("write", &write_picture, py::arg("output"), "The same to a file.");
+      .def(
+          "write",
+          [](const Picture& picture, const std::string& output) {
+            const WithoutGil released;
+            write_file(output, picture.png());
+          },
+          py::arg("output"), "The same to a file.");
   module.def("picture_of_samples", &Picture::of_samples, py::arg("samples"),
              "Of a contiguous array: uint8 or uint16; height x width, perhaps x 3 or 4.");
   module.def("picture_of_png", &Picture::of_png, py::arg("png"), "Of a PNG file in memory.");
@@ -344,15 +350,15 @@ void bind_compare(py::module_& module) {
       .def(
           "save",
           [](const Comparison& comparison, const std::string& output) {
-            run_interruptibly(
-                [&](const std::stop_token&, const CallBack&) { comparison.save(output); });
+            const WithoutGil released;
+            comparison.save(output);
           },
           py::arg("output"), "Writes the difference picture of a pair.")
       .def(
           "save_pictures",
           [](const Comparison& comparison, const std::string& folder) {
-            run_interruptibly(
-                [&](const std::stop_token&, const CallBack&) { comparison.save_pictures(folder); });
+            const WithoutGil released;
+            comparison.save_pictures(folder);
           },
           py::arg("folder"), "Pictures of a pair that is not accepted; removes earlier ones.")
       .def(

@@ -10,7 +10,7 @@ import pytest
 
 from . import _piblocks
 from ._compare import Comparison, judge
-from ._errors import IoError
+from ._errors import Error, IoError
 from ._picture import picture
 from ._references import claim, labelled, place, results_folder, shown
 from ._values import require_str
@@ -27,15 +27,16 @@ def hold(
     :param action: "check", "record", "approve"; without one the picture is only read.
     """
     made = picture("picture", given)
-    made.png()  # it can be read
-    judge(made, made, **tolerance)  # the tolerance makes sense
-    if action is None:
-        return
-    claim(item, str(file))
-    if action == "approve" or action == "record" and not file.exists():
-        _keep(item, file, made, tolerance)
-    else:
+    if isinstance(given, (str, os.PathLike)):  # no folder, no video
+        made = _piblocks.picture_of_png(made.png())
+    if action is not None:
+        claim(item, str(file))
+    if action == "check" or action == "record" and file.exists():
         _check(item, file, made, tolerance)
+        return
+    judge(made, made, **tolerance)  # it can be read, and the tolerance makes sense
+    if action is not None:
+        _keep(item, file, made, tolerance)
 
 
 def _say(item: pytest.Function, file: Path, *lines: str) -> str:
@@ -78,7 +79,11 @@ def _check(
         result = _compared(file, made, tolerance)
     except IoError as error:
         pytest.fail(f"{_say(item, file, str(error))}\n{REMEDY}", pytrace=False)
-    line = _say(item, file, _text(result), *_pictures(item.config, file.stem, result))
+    try:
+        notes = _pictures(item.config, file.stem, result)
+    except Error as error:  # the folder has other files, or the disk is full
+        notes = [str(error)]
+    line = _say(item, file, _text(result), *notes)
     if not result:
         pytest.fail(f"{line}\n{REMEDY}", pytrace=False)
 
