@@ -38,7 +38,7 @@ struct Tolerance {
   std::optional<double> threshold = {};
   bool counts_smoothing = false;     ///< whether pixels of smoothed edges are off by the threshold
   bool ignores_transparent = false;  ///< whether fully transparent pixels are equal
-  std::optional<Rational> max_share = {};  ///< of the image's pixels that are off, 0 … 1
+  Rational max_share = 1;            ///< of the image's pixels may be off, 0 … 1
 
   friend bool operator==(const Tolerance&, const Tolerance&) = default;
 };
@@ -135,10 +135,10 @@ struct FrameComparison {
   /// The reference's frame, or the actual one if it is the only one: "sub/7.png", "frame-000012".
   std::string key;
   Outcome outcome = Outcome::equal;
-  std::string problem;  ///< why the frame is a mismatch or unreadable; else empty
-  int width_px = 0;     ///< of the pictures, if they were compared
+  std::string problem;           ///< why the frame is a mismatch or unreadable; else empty
+  int width_px = 0;              ///< of the pictures, if they were compared
   std::vector<PixelRect> masks;  ///< that concern them
-  bool is_yuv = false;  ///< whether the samples are Y, Cb and Cr
+  bool is_yuv = false;           ///< whether the samples are Y, Cb and Cr
   /// Nothing where only hashes are known, and where there is nothing to compare.
   std::optional<Difference> difference;
   std::string reference_path;  ///< of the PNG file that is the frame; else empty

@@ -88,7 +88,7 @@ Tolerance tolerance_of(const OptionTexts& options) {
   // A bound on any window replaces the default bound on the whole frame.
   tolerance.max_pixels = tolerance.window ? kMaxFrame_px : 0;
   if (const auto most = options.text("--max-pixels"); most && most->ends_with('%')) {
-    tolerance.max_share = options.value("--max-pixels", parse_share);
+    tolerance.max_share = *options.value("--max-pixels", parse_share);
     tolerance.max_pixels = kMaxFrame_px;
   } else if (most) {
     tolerance.max_pixels = *options.value("--max-pixels", parse_pixels);

@@ -230,8 +230,7 @@ void check_tolerance(const Tolerance& tolerance) {
   const auto is_level = [](const Rational& value) { return value >= 0 && value <= 255; };
   const bool is_valid =
       is_level(tolerance.max_delta) && is_level(tolerance.hard_delta) &&
-      tolerance.max_pixels >= 0 &&
-      (!tolerance.max_share || (*tolerance.max_share >= 0 && *tolerance.max_share <= 1)) &&
+      tolerance.max_pixels >= 0 && tolerance.max_share >= 0 && tolerance.max_share <= 1 &&
       (!tolerance.threshold || (*tolerance.threshold >= 0 && *tolerance.threshold <= 1)) &&
       (!tolerance.window || (tolerance.window->side_px >= 1 && tolerance.window->max_pixels >= 0));
   if (!is_valid) throw UsageError("compare: the tolerance is out of range");
@@ -331,7 +330,7 @@ Difference compare_pictures(const Rows& reference, const Rows& actual, const Tol
   const Rational pixels = Rational(reference.width_px) * reference.height_px;
   result.is_accepted =
       result.off_pixels <= tolerance.max_pixels &&
-      (!tolerance.max_share || result.off_pixels <= *tolerance.max_share * pixels) &&
+      result.off_pixels <= tolerance.max_share * pixels &&
       result.largest_delta <= levels_of(tolerance.hard_delta, reference.max_level) &&
       (!tolerance.window || result.densest_off <= tolerance.window->max_pixels);
   return result;

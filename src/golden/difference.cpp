@@ -168,9 +168,9 @@ std::string tolerance_text(const ComparisonJob& job) {
     text = fmt::format("Pixels must look alike, by a threshold of {}{}", *tolerance.threshold,
                        tolerance.counts_smoothing ? "" : ", or be those of smoothed edges");
   }
-  if (tolerance.max_share) {
+  if (tolerance.max_share < 1) {
     text +=
-        fmt::format(", except in up to {}% of the pixels", to_double(*tolerance.max_share * 100));
+        fmt::format(", except in up to {}% of the pixels", to_double(tolerance.max_share * 100));
   } else if (tolerance.max_pixels >= kMaxFrame_px) {
     text += ", except in any number of pixels";
   } else if (tolerance.max_pixels > 0) {

@@ -1,11 +1,12 @@
 """Programs run to their end, and what that took.
 
-In: words of commands. Out: wall time, processor time, memory, what they printed; how near a video is to
-what was drawn.
+In: words of commands. Out: wall time, processor time, memory, what they printed; on what machine; how
+near a video is to what was drawn.
 """
 
 import dataclasses
 import os
+import pathlib
 import re
 import signal
 import time
@@ -67,6 +68,17 @@ def run(command, work):
 
 def last_line(text):
     return text.strip("\n").rpartition("\n")[2]
+
+
+def cpu_name():
+    found = re.search(r"^model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    return found[1] if found else "unknown"
+
+
+def compiler_of(build):
+    found = next((build / "CMakeFiles").glob("*/CMakeCXXCompiler.cmake")).read_text()
+    kind, version = (re.search(rf'CMAKE_CXX_COMPILER_{what} "(.*)"', found)[1] for what in ("ID", "VERSION"))
+    return f"{'GCC' if kind == 'GNU' else kind} {version}"
 
 
 def quality_of(video, drawn, work):
