@@ -3,6 +3,7 @@
 import gc
 import io
 import os
+import pickle
 import re
 import subprocess
 import sys
@@ -268,7 +269,7 @@ def test_folders_and_videos_have_rows(program):
     result.report("page.html")
     assert b"1.png" in Path("page.html").read_bytes()
     for action in (result.png, result.deltas, lambda: result.save("c.png"), result.rows[1].png):
-        with pytest.raises(piblocks.UsageError, match="compare two pictures|its two pictures"):
+        with pytest.raises(piblocks.UsageError, match="compare two pictures"):
             action()
     scene = Scene(1, view_size="64x36", view_fps=5)
     scene.render("a.mp4")
@@ -290,9 +291,27 @@ def test_masks():
         result = compare(picture, other, masks=masks)
         assert result and result.outcome == "accepted", masks
         assert result.masked_pixels == 16 and result.different_pixels == 0
+    for none in (None, [], ()):
+        assert not compare(picture, other, masks=none)
     part = compare(picture, other, masks=[(3, 5, 4, 1)])
     assert not part and part.different_pixels == 12 and part.masked_pixels == 4
     assert np.count_nonzero(part.deltas()) == 12
+
+
+@pytest.mark.parametrize("threshold", [0.05, 0.1, 0.3])
+def test_what_looks_alike_is_that_of_numpy(threshold):
+    """By YIQ, as pixelmatch 7 weighs it: 35215 is the distance of black and white."""
+    expected = noise(40, 50, 3)
+    actual = changed(expected, 4000, 90)
+    yiq = (expected.astype(float) - actual) @ np.array([
+        [0.29889531, 0.59597799, 0.21147017],
+        [0.58662247, -0.27417610, -0.52261711],
+        [0.11448223, -0.32180189, 0.31114694]])
+    off = yiq**2 @ np.array([0.5053, 0.299, 0.1957]) > 35215 * threshold**2
+    result = compare(expected, actual, threshold=threshold, count_antialiasing=True)
+    assert result.off_pixels == np.count_nonzero(off) > 0
+    # Without that, smoothed edges are accepted.
+    assert compare(expected, actual, threshold=threshold).off_pixels <= result.off_pixels
 
 
 def test_what_looks_alike_and_what_is_transparent():
@@ -350,6 +369,14 @@ def test_results_are_freed_at_once():
         assert freed() is None
     finally:
         gc.enable()
+
+
+def test_results_can_be_pickled_without_their_pictures():
+    result = pickle.loads(pickle.dumps(compare(noise(20, 30), noise(20, 30, seed=3))))
+    assert not result and "pixels differ" in str(result) and result.off_pixels > 500
+    assert result._repr_html_() == f"<pre>{result}</pre>"
+    with pytest.raises(piblocks.UsageError, match="a copy have no pictures"):
+        result.png()
 
 
 def test_threads_may_share_a_result():
@@ -416,6 +443,7 @@ def test_wrong_types(given):
         ({"masks": [(0, 0, 5, 4)]}, "compare: the masks leave nothing of a picture of 5x4"),
         ({"masks": [(0, 0, 5)]}, r"masks\[0\]: \(0, 0, 5\) must be x, y, width, height"),
         ({"masks": [(9, 9, 5, 4)]}, "the mask 5x4.9.9 lies outside of every picture"),
+        ({"masks": ((0, 0, 5, 4),)}, "compare: the masks leave nothing"),
         ({"masks": ["5x4"]}, r"masks 5x4: must be WxH\+X\+Y"),
         ({"masks": [(-1, 0, 2, 2)]}, "masks 2x2"),
         ({"masks": ["no.png"]}, "masks no.png: png: cannot read 'no.png'"),

@@ -60,8 +60,13 @@ class Comparison(GoldenResult):
 
     def _pair(self) -> _piblocks.Comparison:
         if self._made is None:
-            raise UsageError("compare: a row has no pictures; compare its two pictures to see them")
+            raise UsageError(
+                "compare: a row and a copy have no pictures; compare two pictures to see them")
         return self._made
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For pickle and copy: all but the pictures."""
+        return {**self.__dict__, "_made": None}
 
     def png(self, kind: str = "diff") -> bytes:
         """A picture of two that were compared, as a PNG file.
@@ -111,7 +116,8 @@ class Comparison(GoldenResult):
 def _masks(given: Any) -> list[Union[bytes, _piblocks.Picture]]:
     if given is None:
         return []
-    is_rectangle = isinstance(given, tuple) and all(isinstance(one, Integral) for one in given)
+    is_tuple = isinstance(given, tuple) and len(given) > 0
+    is_rectangle = is_tuple and all(isinstance(one, Integral) for one in given)
     if is_rectangle or isinstance(given, (str, bytes, os.PathLike)) or is_picture(given):
         given = [given]
     if not isinstance(given, Iterable):

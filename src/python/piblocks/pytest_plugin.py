@@ -16,6 +16,7 @@ parameters: of ``test_turn`` in ``test_scenes.py`` they begin with ``test_scenes
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -144,7 +145,7 @@ def _hold(item: pytest.Function, given: Any, action: str | None, mark: pytest.Ma
     if isinstance(given, Scene):
         if action is not None:
             _hold_scene(item, given, action, mark)
-    elif is_picture(given) or isinstance(given, (str, Path, bytes)):
+    elif is_picture(given) or isinstance(given, (str, os.PathLike, bytes)):
         try:
             _hold_picture(item, given, action, mark)
         finally:
