@@ -75,8 +75,8 @@ Mask drawn_mask(const Picture& picture, const std::string& name) {
 ComparisonJob job_of(const Picture& reference, const Picture& actual,
                      const std::map<std::string, std::string>& options,
                      const std::vector<MaskSource>& masks) {
-  ComparisonJob job{reference.path() != nullptr ? *reference.path() : "the reference",
-                    actual.path() != nullptr ? *actual.path() : "the actual picture"};
+  ComparisonJob job{reference.has_path() ? *reference.path() : "the reference",
+                    actual.has_path() ? *actual.path() : "the actual picture"};
   cli::read_tolerance(CompareOptions(options, masks), job);
   for (std::size_t i = 0; i < masks.size(); ++i) {
     if (const auto* picture = std::get_if<std::shared_ptr<Picture>>(&masks[i])) {
@@ -121,8 +121,8 @@ class Comparison {
   Comparison(const Picture& reference, const Picture& actual, ComparisonJob job,
              const std::stop_token& stop)
       : job_(std::move(job)),
-        are_files_(reference.path() && actual.path()),
-        is_named_(reference.path() || actual.path()) {
+        are_files_(reference.has_path() && actual.has_path()),
+        is_named_(reference.has_path() || actual.has_path()) {
     const auto take_row = [this](const FrameComparison& row) { take(row); };
     if (are_files_) {
       result_ = compare_files(job_, take_row, stop);

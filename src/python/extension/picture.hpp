@@ -25,6 +25,7 @@ class Picture {
   /// Of a file, folder, pattern or video.
   static Picture of_path(const std::string& path);
 
+  bool has_path() const noexcept { return path() != nullptr; }
   /// Nothing but of a path.
   const std::string* path() const noexcept { return std::get_if<std::string>(&content_); }
   /// As what the side has, with a name for people; empty for one in memory.
