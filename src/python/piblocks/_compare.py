@@ -108,9 +108,12 @@ class Comparison(GoldenResult):
 
     def _repr_html_(self) -> str:
         try:
-            return pictures_html(str(self), self._pair().pictures())
+            pictures = self._pair().pictures()
         except Error:  # of several frames; or a file is gone
             return f"<pre>{escape(str(self))}</pre>"
+        kinds = {"expected": "expected", "diff": "difference", "actual": "actual"}
+        return pictures_html(str(self), {
+            caption: pictures[kind] for kind, caption in kinds.items() if kind in pictures})
 
 
 def _masks(given: Any) -> list[Union[bytes, _piblocks.Picture]]:

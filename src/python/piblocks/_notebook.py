@@ -69,6 +69,12 @@ def _media(data: bytes, kind: str) -> str:
     return f'<{tag} {source} controls style="max-width: 100%"></{tag}>'
 
 
+def _rendering(png: bytes) -> str:
+    """How to scale a PNG file to a third of a notebook: pixels of small ones stay squares."""
+    width = int.from_bytes(png[16:20], "big")
+    return "pixelated" if width < _LONGER_SIDE // 3 else "auto"
+
+
 def pictures_html(line: str, pictures: dict[str, bytes]) -> str:
     """A line and, side by side, PNG files by their captions, unless they are large."""
     text = f"<p>{escape(line)}</p>"
@@ -78,7 +84,7 @@ def pictures_html(line: str, pictures: dict[str, bytes]) -> str:
     figures = "".join(
         '<figure style="flex: 1; margin: 0">'
         f'<img src="{_data_url(png, "image/png")}" alt="{caption}" '
-        'style="width: 100%; image-rendering: pixelated">'
+        f'style="width: 100%; image-rendering: {_rendering(png)}">'
         f"<figcaption>{caption}</figcaption></figure>"
         for caption, png in pictures.items()
     )
