@@ -42,6 +42,18 @@ bool is_tolerance_option(const std::string& name) {
   return std::ranges::any_of(kToleranceOptions, [&](const char* one) { return one == name; });
 }
 
+/// Whether the option has no value.
+bool is_flag(const std::string& name) {
+  return name == "--count-antialiasing" || name == "--ignore-transparent";
+}
+
+/// Whether there is any of the options but masks.
+bool has_tolerance(const Command& command) {
+  return std::ranges::any_of(kToleranceOptions, [&](const std::string& name) {
+    return name != "--mask" && command.is_given(name);
+  });
+}
+
 /// The lines of a text file; none if it is not there. @throws IoError
 std::vector<std::string> lines_of(const fs::path& path) {
   std::error_code error;
@@ -49,7 +61,10 @@ std::vector<std::string> lines_of(const fs::path& path) {
   refuse_pipe(path, "golden");
   std::ifstream file(path);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  for (std::string line; std::getline(file, line);) {
+    if (line.ends_with('\r')) line.pop_back();  // written or checked out on Windows
+    lines.push_back(line);
+  }
   if (file.bad() || !file.eof()) {
     throw IoError(fmt::format("golden: cannot read '{}'", path.string()));
   }
@@ -61,10 +76,7 @@ std::vector<std::string> lines_of(const fs::path& path) {
 class FolderOptions final : public OptionTexts {
  public:
   FolderOptions(const Command& given, const fs::path& references)
-      : given_(given), path_(references / kSettings) {
-    replaces_ = std::ranges::any_of(kToleranceOptions, [&](const std::string& name) {
-      return name != "--mask" && given.is_given(name);
-    });
+      : given_(given), path_(references / kSettings), replaces_(has_tolerance(given)) {
     for (const std::string& line : lines_of(path_)) read(line);
   }
 
@@ -83,14 +95,21 @@ class FolderOptions final : public OptionTexts {
   const std::string& recorded_beside() const noexcept { return painter_; }
 
   /// Keeps the options, and says what paints here.
-  void write() const {
+  /// @param removed  names of pictures whose masks are kept no longer
+  void write(const std::set<std::string>& removed = {}) const {
     std::string text = fmt::format("{}{}\n", kPainter, painter());
     for (const std::string option : kToleranceOptions) {
       std::vector<std::string> values = texts(option);
       std::ranges::sort(values);
-      values.erase(std::ranges::unique(values).begin(), values.end());
-      const bool is_flag = option.starts_with("--count") || option.starts_with("--ignore");
-      for (const std::string& value : values) text += option + (is_flag ? "" : "=" + value) + '\n';
+      values.erase(std::unique(values.begin(), values.end()), values.end());
+      std::erase_if(values, [&](const std::string& value) {
+        const std::size_t end = value.rfind(':');
+        return end != std::string::npos && removed.contains(value.substr(0, end));
+      });
+      for (const std::string& value : values) {
+        text += is_flag(option) ? option : fmt::format("{}={}", option, value);
+        text += '\n';
+      }
     }
     OutputFile file(path_.string(), OutputFile::Contents::text);
     file.write(text);
@@ -107,14 +126,23 @@ class FolderOptions final : public OptionTexts {
       throw UsageError(fmt::format("golden: '{}' has '{}'; it may have {}", path_.string(),
                                    shortened(line), fmt::join(kToleranceOptions, ", ")));
     }
-    kept_[name].push_back(end == std::string::npos ? "true" : line.substr(end + 1));
+    const bool has_value = end != std::string::npos;
+    if (has_value == is_flag(name)) {
+      throw UsageError(fmt::format("golden: '{}' has '{}'; {} has {}", path_.string(),
+                                   shortened(line), name, has_value ? "no value" : "a value"));
+    }
+    std::vector<std::string>& values = kept_[name];
+    values.push_back(has_value ? line.substr(end + 1) : "true");
+    if (values.size() > 1 && name != "--mask") {
+      throw UsageError(fmt::format("golden: '{}' has {} twice", path_.string(), name));
+    }
   }
 
   const Command& given_;
   fs::path path_;
   std::string painter_;
   std::map<std::string, std::vector<std::string>> kept_;
-  bool replaces_ = false;
+  bool replaces_;
 };
 
 bool lies_in(const fs::path& path, const fs::path& folder) {
@@ -181,6 +209,16 @@ std::vector<Row> compared(const Folder& folder) {
                     fmt::format("golden: there is no picture in '{}'", folder.pictures.string()));
   }
   return rows;
+}
+
+/// @throws ExitError if one of these pictures cannot be read: nothing has been done about it
+void check_readable(const std::vector<Row>& rows) {
+  const auto unread = std::ranges::count_if(rows, [](const Row& row) {
+    return row.outcome == Outcome::unreadable && row.actual.empty();
+  });
+  if (unread == 0) return;
+  throw ExitError(kUnreadable,
+                  fmt::format("golden: {} cannot be read", counted(unread, "picture")));
 }
 
 void copy_to_references(const Folder& folder, const Row& row) {
@@ -268,8 +306,13 @@ void record_folder(const Command& command) {
     ++recorded;
   }
   folder.options.write();
+  for (const Row& row : rows) {
+    if (row.outcome != Outcome::unreadable) continue;
+    out.line(printable(fmt::format("{}: left as it is ({})", row.name, row.text)));
+  }
   out.line(fmt::format("recorded: {}", counted(recorded, "new reference")));
   out.finish();
+  check_readable(rows);
 }
 
 void approve_folder(const Command& command) {
@@ -278,8 +321,9 @@ void approve_folder(const Command& command) {
   TextOutput out;
   std::int64_t replaced = 0;
   std::int64_t added = 0;
-  std::int64_t removed = 0;
-  for (const Row& row : chosen_rows(compared(folder), names)) {
+  std::set<std::string> removed;
+  const std::vector<Row> rows = chosen_rows(compared(folder), names);
+  for (const Row& row : rows) {
     const char* done = nullptr;
     if (!row.actual.empty() && row.outcome != Outcome::equal) {
       copy_to_references(folder, row);
@@ -288,7 +332,7 @@ void approve_folder(const Command& command) {
       done = is_new ? "added" : "replaced";
     } else if (row.outcome == Outcome::missing && command.is_given("--remove-unused")) {
       fs::remove(folder.references / row.name);
-      ++removed;
+      removed.insert(row.name);
       done = "removed";
     }
     if (done != nullptr) out.line(printable(fmt::format("{}: {} ({})", row.name, done, row.text)));
@@ -296,9 +340,11 @@ void approve_folder(const Command& command) {
       out.line(printable(fmt::format("{}: left as it is ({})", row.name, row.text)));
     }
   }
-  folder.options.write();
-  out.line(fmt::format("approved: {} replaced, {} added, {} removed", replaced, added, removed));
+  folder.options.write(removed);
+  out.line(
+      fmt::format("approved: {} replaced, {} added, {} removed", replaced, added, removed.size()));
   out.finish();
+  check_readable(rows);
 }
 
 }  // namespace piblocks::cli

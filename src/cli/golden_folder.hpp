@@ -7,11 +7,11 @@
 namespace piblocks::cli {
 
 /// Compares the pictures with the references, and writes none. @throws ExitError
-void check_folder(const Command& options);
+void check_folder(const Command& command);
 /// Adds references that are missing. Without --missing, those that are there must be accepted.
 /// @throws ExitError
-void record_folder(const Command& options);
+void record_folder(const Command& command);
 /// Replaces references, all that are not accepted or those that are named.
-void approve_folder(const Command& options);
+void approve_folder(const Command& command);
 
 }  // namespace piblocks::cli

@@ -162,11 +162,11 @@ std::string summary_text(const ComparisonJob& job, const ComparisonResult& resul
 std::string tolerance_text(const ComparisonJob& job) {
   const Tolerance& tolerance = job.tolerance;
   std::string text = "Every sample must be equal";
-  if (tolerance.max_delta > 0) {
-    text = fmt::format("Samples may differ by up to {} of 255", to_double(tolerance.max_delta));
-  } else if (tolerance.threshold) {
+  if (tolerance.threshold) {
     text = fmt::format("Pixels must look alike, by a threshold of {}{}", *tolerance.threshold,
                        tolerance.counts_smoothing ? "" : ", or be those of smoothed edges");
+  } else if (tolerance.max_delta > 0) {
+    text = fmt::format("Samples may differ by up to {} of 255", to_double(tolerance.max_delta));
   }
   if (tolerance.max_share < 1) {
     text +=

@@ -245,6 +245,7 @@ void compare_samples(Fetched reference, Fetched actual, const ComparisonJob& job
   if (!row.problem.empty()) return;
   result.is_compared = true;
   row.width_px = pair->size().width_px;
+  result.masks.clear();
   row.masks = masks_of(job, reference, actual, pair->size(), result);
   pair->unify();
   row.difference = pair->apply([&](const auto& a, const auto& b) {
@@ -286,6 +287,9 @@ ComparedPair compare_pictures(const ListedPicture& reference, const ListedPictur
 ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJob& job) {
   ComparedPair result{
       .row = {}, .has_reference = reference.is_there, .has_actual = actual.is_there};
+  for (std::size_t i = 0; i < job.masks.size(); ++i) {
+    if (concerns(job.masks[i], reference, actual)) result.masks.push_back(i);
+  }
   FrameComparison& row = result.row;
   row.name = row_name(reference, actual);
   row.key = reference.is_there ? reference.key : actual.key;

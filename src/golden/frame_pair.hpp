@@ -42,8 +42,9 @@ struct ComparedPair {
   bool has_reference = false;
   bool has_actual = false;
   bool is_compared = false;
-  std::vector<std::size_t> masks = {};  ///< of the job, that hide a part of the pictures
-  std::size_t held_bytes = 0;           ///< by the functions, about
+  /// Of the job, that hide a part of the pictures; all that concern them if they are not compared.
+  std::vector<std::size_t> masks = {};
+  std::size_t held_bytes = 0;  ///< by the functions, about
 };
 
 /// @throws UsageError as compare()

@@ -71,11 +71,13 @@ class Perceptual {
     };
     return {level(2), level(1), level(0), level(3)};
   }
-  /// Calls visit(place) for the places around one, as far as they are in the picture.
+  /// Calls visit(place) for the places around one, as far as they are in the picture. Column by
+  /// column, as pixelmatch does: of equally dark or bright neighbours the first one counts.
   template <typename Visit>
   static void visit_around(const Rows& rows, Place centre, const Visit& visit) {
-    for (int y = std::max(centre.y - 1, 0); y <= std::min(centre.y + 1, rows.height_px - 1); ++y) {
-      for (int x = std::max(centre.x - 1, 0); x <= std::min(centre.x + 1, rows.width_px - 1); ++x) {
+    for (int x = std::max(centre.x - 1, 0); x <= std::min(centre.x + 1, rows.width_px - 1); ++x) {
+      for (int y = std::max(centre.y - 1, 0); y <= std::min(centre.y + 1, rows.height_px - 1);
+           ++y) {
         if (x != centre.x || y != centre.y) visit(Place{x, y});
       }
     }

@@ -7,24 +7,11 @@
 #include <cstdlib>
 
 #include "draw/composed_pictures.hpp"
+#include "golden/small_images.hpp"
 #include "support/traced_random.hpp"
 
 namespace piblocks {
 namespace {
-
-Image flat(int width_px, int height_px, std::uint32_t word) {
-  return {width_px, height_px,
-          std::vector<std::uint32_t>(std::size_t(width_px) * std::size_t(height_px), word)};
-}
-
-std::uint32_t& at(Image& image, int x, int y) {
-  return image.words.at(std::size_t(y) * std::size_t(image.width_px) + std::size_t(x));
-}
-
-Difference compared(const Image& a, const Image& b, const Tolerance& tolerance = {},
-                    const std::vector<PixelRect>& masks = {}) {
-  return compare(a.view(), b.view(), tolerance, masks);
-}
 
 TEST(Compare, EqualImagesAreEqual) {
   const Image image = flat(7, 5, 0xff123456);

@@ -30,6 +30,7 @@ struct HandMadePng {
   std::string chunks = {};       ///< that stand before the pixels
   bool is_interlaced = false;
   std::vector<int> filters = {};  ///< of the rows, in turn; without any, no row is filtered
+  int compression = -1;           ///< of zlib, 0 to 9; -1 is its default
 };
 
 inline std::string big_endian(std::uint32_t value) {
@@ -123,8 +124,8 @@ inline std::string file_of(const HandMadePng& png) {
   }
   uLongf size = compressBound(rows.size());
   std::string compressed(size, '\0');
-  compress(reinterpret_cast<Bytef*>(compressed.data()), &size,
-           reinterpret_cast<const Bytef*>(rows.data()), rows.size());
+  compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
+            reinterpret_cast<const Bytef*>(rows.data()), rows.size(), png.compression);
   compressed.resize(size);
   std::string header = big_endian(static_cast<std::uint32_t>(png.width_px)) +
                        big_endian(static_cast<std::uint32_t>(png.height_px));
