@@ -69,15 +69,15 @@ Mask parse_mask(const std::string& text) {
     mask.rects = {parse_rect(place)};
     return mask;
   }
+  Image picture;
   try {
-    const Image picture = read_png(place);
-    mask.rects = rects_of_mask(picture);
-    mask.whole = PixelRect{0, 0, picture.width_px, picture.height_px};
+    picture = read_png(place);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
-  if (mask.rects.empty()) throw UsageError("all of it is black or transparent: it hides nothing");
-  return mask;
+  Mask drawn = mask_of_picture(text, picture);
+  drawn.picture = mask.picture;
+  return drawn;
 }
 
 Tolerance tolerance_of(const OptionTexts& options) {
@@ -106,6 +106,14 @@ Tolerance tolerance_of(const OptionTexts& options) {
 }
 
 }  // namespace
+
+Mask mask_of_picture(const std::string& text, const Image& picture) {
+  Mask mask{.text = text,
+            .rects = rects_of_mask(picture),
+            .whole = PixelRect{0, 0, picture.width_px, picture.height_px}};
+  if (mask.rects.empty()) throw UsageError("all of it is black or transparent: it hides nothing");
+  return mask;
+}
 
 void read_tolerance(const OptionTexts& options, ComparisonJob& job) {
   job.tolerance = tolerance_of(options);

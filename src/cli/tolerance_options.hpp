@@ -5,6 +5,7 @@
 #include <piblocks/compare.hpp>
 
 #include <array>
+#include <string>
 
 #include "cli/option_texts.hpp"
 
@@ -17,5 +18,9 @@ inline constexpr std::array kToleranceOptions = {
 
 /// Gives the job its tolerance and its masks. @throws UsageError
 void read_tolerance(const OptionTexts& options, ComparisonJob& job);
+
+/// A mask that hides what is neither black nor transparent in a picture of this text.
+/// @throws UsageError if that is nothing
+Mask mask_of_picture(const std::string& text, const Image& picture);
 
 }  // namespace piblocks::cli

@@ -209,6 +209,15 @@ void compare_frames_of(const ComparisonJob& job, Rows& rows, const std::stop_tok
 
 }  // namespace
 
+ComparisonResult compare_pair(Fetched reference, Fetched actual, const ComparisonJob& job,
+                              const OnFrame& on_frame) {
+  Rows rows(on_frame);
+  PairTaker taker(job, rows);
+  taker.take(compare_frames(std::move(reference), std::move(actual), job));
+  taker.finish();
+  return rows.finish(job);
+}
+
 ComparisonResult compare_files(const ComparisonJob& job, const OnFrame& on_frame,
                                const std::stop_token& stop) {
   Rows rows(on_frame);

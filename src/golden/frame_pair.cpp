@@ -94,6 +94,8 @@ bool is_worth_a_thread(const fs::path& path) {
 ComparedPair equal_pair(const ListedPicture& reference, const ListedPicture& actual) {
   ComparedPair result{.row = {}, .has_reference = true, .has_actual = true};
   result.row.name = both_names(name_of(reference), name_of(actual));
+  result.row.reference_path = reference.path;
+  result.row.actual_path = actual.path;
   result.row.difference = Difference();
   result.row.reference = [path = reference.path] { return read_png(path); };
   result.row.actual = result.row.reference;

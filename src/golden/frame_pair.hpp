@@ -4,6 +4,7 @@
 
 #include <piblocks/compare.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,5 +55,10 @@ ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJ
 /// @throws UsageError as compare()
 ComparedPair compare_pictures(const ListedPicture& reference, const ListedPicture& actual,
                               bool in_threads, const ComparisonJob& job);
+
+/// The comparison of this pair alone, as compare_files() makes it.
+/// @throws UsageError as compare_files()
+ComparisonResult compare_pair(Fetched reference, Fetched actual, const ComparisonJob& job,
+                              const std::function<void(const FrameComparison&)>& on_frame);
 
 }  // namespace piblocks

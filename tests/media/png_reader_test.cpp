@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "media/png/png_chunk.hpp"
 #include "support/hand_made_png.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/traced_random.hpp"
@@ -240,12 +241,24 @@ std::string exif(int orientation, bool is_big) {
          number(0, 4);
 }
 
+TEST_F(PngReaderTest, ReadsDeepSamplesThatAreEncoded) {
+  DeepImage image{.width_px = 5, .height_px = 3};
+  for (std::uint64_t i = 0; i < 15; ++i) image.words.push_back(0x0123456789abcdef * (i + 1));
+  const auto reader = read_png_bytes("memory", encode_png_samples(image));
+  ASSERT_TRUE(reader->next());
+  EXPECT_EQ(std::get<DeepImage>(reader->samples()).words, image.words);
+  EXPECT_FALSE(reader->next());
+}
+
 TEST_F(PngReaderTest, SaysHowPlayersTurnThePicture) {
   const auto presentation_of = [&](const std::string& data) {
     HandMadePng png{.levels = {1, 2, 3}};
     png.chunks = png_chunk("eXIf", data);
-    const auto reader = read_png_frame(saved(file_of(png)));
-    EXPECT_TRUE(reader->next());
+    const std::string file = file_of(png);
+    const auto reader = read_png_frame(saved(file));
+    const auto in_memory = read_png_bytes("memory", Bytes(file.begin(), file.end()));
+    EXPECT_TRUE(reader->next() && in_memory->next());
+    EXPECT_EQ(in_memory->presentation(), reader->presentation());
     return reader->presentation();
   };
   for (const bool is_big : {true, false}) {

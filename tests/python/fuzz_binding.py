@@ -122,7 +122,8 @@ class Fuzzer:
                 raise AssertionError(f"{scene!r}: to_toml() reads back as another scene")
             if (small := self.bounded(scene)) is not None:
                 self.scene = small
-        ask = r.choice([self.numbers, self.frames, self.files, self.golden, self.functions])
+        ask = r.choice([self.numbers, self.frames, self.files, self.golden,
+                        self.compare, self.functions])
         ask(self.scene)
 
     def numbers(self, scene):
@@ -173,6 +174,36 @@ class Fuzzer:
         act = self.random.choice([scene.golden_record, scene.golden_approve, scene.golden_check])
         act(self.likely("a", "b"), self.likely("golden"), frames=self.likely(None, ["last"]))
 
+    def picture(self, scene):
+        r = self.random
+        kind = r.randrange(6)
+        if kind == 0:
+            return scene.frame(0)
+        if kind == 1:
+            return scene.frames().png(0)[: self.likely(None, 40, 99, 10**6)]
+        if kind == 2:
+            shape = [r.choice([0, 1, 2, 3, 4, 36, 64]) for _ in range(r.randrange(5))]
+            return np.zeros(shape, r.choice(["u1", "u2", ">u2", "i8", "f4", "?", "O", "U1"]))
+        if kind == 3:
+            return scene.frame("last")[:: r.choice([1, -1, 2]), :: r.choice([1, -1, 3])]
+        name = self.likely("a.png", "%02d.png", "a.mp4", ".", "golden")
+        # Others are large folders.
+        return "a.png" if isinstance(name, str) and name.startswith(("/", "..")) else name
+
+    def compare(self, scene):
+        r = self.random
+        choices = {"max_delta": (1, 0.5), "threshold": (0.1,), "count_antialiasing": (True, False),
+                   "ignore_transparent": (True, False), "max_pixels": (3, "0.1%"),
+                   "hard_delta": (9,), "max_window": ((16, 3), "4:0"),
+                   "masks": ([(0, 0, 3, 4)], "5x5+1+1", [self.picture(scene)])}
+        given = {name: self.likely(*choices[name]) for name in r.sample(
+            list(choices), r.choice([0, 1, 2]))}
+        result = piblocks.compare(self.picture(scene), self.picture(scene), **given)
+        str(result), repr(result), result.rows, result._repr_html_()
+        assert bool(result) == (result.outcome in ("equal", "accepted"))
+        result.deltas()
+        result.png(self.likely("diff", "actual"))
+
     def functions(self, scene):
         r = self.random
         repr(scene), hash(scene), scene.notes, scene.fps, scene.is_transparent
@@ -181,6 +212,9 @@ class Fuzzer:
         piblocks.join(self.likely(["a.mp4.part-1-of-2"]), self.likely("b.mp4"))
         piblocks._piblocks.Script(*[self.value() for _ in range(4)]) if r.random() < 0.5 else None
         piblocks._piblocks.nearest_name(self.value(), self.value())
+        piblocks._piblocks.picture_of_samples(self.value())
+        piblocks._piblocks.picture_of_png(self.likely(b"x")).png()
+        piblocks._piblocks.compare(*[self.value() for _ in range(4)])
 
 
 def allowed(error):

@@ -184,9 +184,9 @@ def test_two():
     "text, message",
     [
         ("@pytest.mark.piblocks_golden\ndef test_it():\n    return 3",
-         "test_it returned int; a test marked piblocks_golden returns a Scene"),
+         "test_it returned int; a test marked piblocks_golden returns a Scene or a picture"),
         ("@pytest.mark.piblocks_golden(folder='x')\ndef test_it():\n    return piblocks.Scene(1)",
-         "piblocks_golden has no argument 'folder'"),
+         "piblocks_golden has no argument 'folder' for a Scene"),
         ("@pytest.mark.piblocks_golden\ndef test_it():\n    assert 1 == 2", "assert 1 == 2"),
     ],
 )

@@ -58,7 +58,8 @@ def test_stubtest():
     pytest.importorskip("mypy", reason="there is no mypy (mypy)")
     # Classes of pybind11 have a metaclass of their own.
     with open("allowed", "w") as file:
-        file.write("piblocks._piblocks.(Script|Run|BodyRun|Frame|Pictures)\npiblocks._piblocks.Frame.__init__\n")
+        file.write("piblocks._piblocks.(Script|Run|BodyRun|Frame|Pictures|Picture|Comparison)\n"
+                   "piblocks._piblocks.(Frame|Picture|Comparison).__init__\n")
     result = subprocess.run(
         [sys.executable, "-m", "mypy.stubtest", "piblocks._piblocks", "--ignore-missing-stub",
          "--allowlist", "allowed", "--ignore-unused-allowlist"],

@@ -28,13 +28,13 @@ void append_png_chunk(Bytes& png, std::string_view type, ByteSpan data) {
   end_png_chunk(png, start);
 }
 
-void append_png_header(Bytes& png, int width_px, int height_px, PngColors colors) {
+void append_png_header(Bytes& png, int width_px, int height_px, PngColors colors,
+                       std::uint8_t bits) {
   append(png, kPngSignature);
   const std::size_t header = begin_png_chunk(png, "IHDR");
   append_big_endian(png, std::uint64_t(width_px), 4);
   append_big_endian(png, std::uint64_t(height_px), 4);
-  constexpr std::uint8_t kBits = 8;
-  append(png, std::array<std::uint8_t, 5>{kBits, static_cast<std::uint8_t>(colors), 0, 0, 0});
+  append(png, std::array<std::uint8_t, 5>{bits, static_cast<std::uint8_t>(colors), 0, 0, 0});
   end_png_chunk(png, header);
 }
 

@@ -29,11 +29,12 @@ void end_png_chunk(Bytes& png, std::size_t start);
 /// A whole chunk.
 void append_png_chunk(Bytes& png, std::string_view type, ByteSpan data = {});
 
-/// What a sample of 8 bits is (PNG specification, table 11.1).
+/// What samples are (PNG specification, table 11.1).
 enum class PngColors : std::uint8_t { rgb = 2, palette = 3, rgba = 6 };
 
-/// Signature and header of a picture with 8 bits a sample.
-void append_png_header(Bytes& png, int width_px, int height_px, PngColors colors);
+/// Signature and header of a picture. @param bits  of a sample: 8 or 16
+void append_png_header(Bytes& png, int width_px, int height_px, PngColors colors,
+                       std::uint8_t bits = 8);
 /// The chunk that says that colours are sRGB.
 void append_png_srgb(Bytes& png);
 
@@ -55,6 +56,8 @@ void append_up_filtered(Bytes& rows, int count, std::size_t row_bytes, const Pac
 /// Encodes a picture as read_png_samples() returns it, with straight alpha; without alpha if all of
 /// it is opaque. @throws MediaError as encode_png()
 Bytes encode_png_samples(const Image& picture);
+/// The same with 16 bits a sample and with alpha in any case. @param picture  up to 65535
+Bytes encode_png_samples(const DeepImage& picture);
 
 /// Encodes a picture of at most 256 colours, which are words 0xRRGGBB.
 /// @param pack_row  writes the indices of the colours of a row, from 0

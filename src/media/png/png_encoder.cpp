@@ -239,9 +239,10 @@ Bytes compressed(ByteSpan rows) {
 }
 
 /// A file of rows that are filtered. @param palette  none if empty
-Bytes with_rows(int width_px, int height_px, PngColors colors, ByteSpan palette, ByteSpan rows) {
+Bytes with_rows(int width_px, int height_px, PngColors colors, ByteSpan palette, ByteSpan rows,
+                std::uint8_t bits = 8) {
   Bytes png;
-  append_png_header(png, width_px, height_px, colors);
+  append_png_header(png, width_px, height_px, colors, bits);
   append_png_srgb(png);
   if (!palette.empty()) append_png_chunk(png, "PLTE", palette);
   append_png_chunk(png, "IDAT", compressed(rows));
@@ -272,6 +273,19 @@ Bytes encode_png_samples(const Image& picture) {
         }
       });
   return with_rows(picture.width_px, picture.height_px, PngColors::rgba, {}, rows);
+}
+
+Bytes encode_png_samples(const DeepImage& picture) {
+  Bytes rows;
+  append_up_filtered(
+      rows, picture.height_px, 8 * std::size_t(picture.width_px), [&](int row, std::uint8_t* to) {
+        const auto* const words = picture.words.data() + std::ptrdiff_t{row} * picture.width_px;
+        for (const std::uint64_t word : std::span(words, words + picture.width_px)) {
+          for (const int shift : {40, 32, 24, 16, 8, 0, 56, 48})
+            *to++ = std::uint8_t(word >> shift);
+        }
+      });
+  return with_rows(picture.width_px, picture.height_px, PngColors::rgba, {}, rows, 16);
 }
 
 Bytes encode_png_palette(int width_px, int height_px, std::span<const std::uint32_t> palette,

@@ -248,6 +248,15 @@ class PngFile {
   bool is_flat_ = false;
 };
 
+/// @param path  for messages
+PngFile file_in_memory(const fs::path& path, ByteSpan bytes) {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): fmemopen() only reads in mode "r"
+  auto* const memory = const_cast<std::uint8_t*>(bytes.data());
+  FilePtr file(::fmemopen(memory, bytes.size(), "rb"), std::fclose);
+  if (!file) throw std::bad_alloc();
+  return {path, std::move(file)};
+}
+
 AnyImage samples_of(PngFile& file) {
   if (file.is_deep()) return file.read_deep();
   return file.read_flat();
@@ -263,17 +272,20 @@ void refuse_animation(const PngFile& file, const fs::path& path) {
 /// One frame.
 class PngReader final : public FrameReader {
  public:
-  PngReader(fs::path path, Bytes file) : path_(std::move(path)), file_(std::move(file)) {}
+  enum class Place { on_disk, in_memory };
+
+  PngReader(fs::path path, Bytes file, Place place)
+      : path_(std::move(path)), file_(std::move(file)), place_(place) {}
 
   bool next() override {
     if (std::exchange(is_read_, true)) return false;
     if constexpr (kReadsPackedPng) {
-      if (auto packed = read_packed_png(std::exchange(file_, {}))) {
+      if (auto packed = read_packed_png(place_ == Place::in_memory ? file_ : std::move(file_))) {
         samples_ = *std::move(packed);
         return true;
       }
     }
-    PngFile file(path_);
+    PngFile file = place_ == Place::in_memory ? file_in_memory(path_, file_) : PngFile(path_);
     refuse_animation(file, path_);
     samples_ = samples_of(file);
     presentation_ = file.presentation();  // the chunk may follow the pixels
@@ -287,6 +299,7 @@ class PngReader final : public FrameReader {
  private:
   fs::path path_;
   Bytes file_;
+  Place place_;
   std::string presentation_;
   bool is_read_ = false;
   AnyImage samples_;
@@ -318,11 +331,7 @@ AnyImage read_png_samples(const fs::path& path) {
 }
 
 AnyImage read_png_samples(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): fmemopen() only reads in mode "r"
-  auto* const memory = const_cast<std::uint8_t*>(bytes.data());
-  FilePtr file(::fmemopen(memory, bytes.size(), "rb"), std::fclose);
-  if (!file) throw std::bad_alloc();
-  PngFile png(path, std::move(file));
+  PngFile png = file_in_memory(path, bytes);
   return samples_of(png);
 }
 
@@ -333,7 +342,11 @@ bool is_png_file(const fs::path& path) {
 bool is_animated_png(const fs::path& path) { return PngFile(path).is_animated(); }
 
 std::unique_ptr<FrameReader> read_png_frame(fs::path path, Bytes file) {
-  return std::make_unique<PngReader>(std::move(path), std::move(file));
+  return std::make_unique<PngReader>(std::move(path), std::move(file), PngReader::Place::on_disk);
+}
+
+std::unique_ptr<FrameReader> read_png_bytes(std::string name, Bytes file) {
+  return std::make_unique<PngReader>(std::move(name), std::move(file), PngReader::Place::in_memory);
 }
 
 }  // namespace piblocks

@@ -49,4 +49,7 @@ std::string presentation_by_exif(ByteSpan exif);
 /// @param file  what is in it; it is opened only if libpng has to read it, or if this is empty.
 std::unique_ptr<FrameReader> read_png_frame(std::filesystem::path path, Bytes file = {});
 
+/// A PNG file in memory as the only frame. @param name  for messages
+std::unique_ptr<FrameReader> read_png_bytes(std::string name, Bytes file);
+
 }  // namespace piblocks

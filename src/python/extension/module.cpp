@@ -17,4 +17,5 @@ PYBIND11_MODULE(_piblocks, module) {
   piblocks::python::bind_frames(module);
   piblocks::python::bind_render(module);
   piblocks::python::bind_golden(module);
+  piblocks::python::bind_compare(module);
 }

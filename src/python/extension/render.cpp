@@ -26,12 +26,6 @@ namespace {
 namespace py = pybind11;
 using Options = std::map<std::string, std::string>;
 
-void refuse_standard_output(const std::string& output, const char* operation) {
-  if (output != "-") return;
-  throw UsageError(
-      fmt::format("{}: '-' is standard output only for the command line; name a file", operation));
-}
-
 RenderJob make_job(const BoundScript& bound, const std::string& output,
                    const BoundOptions& options) {
   refuse_standard_output(output, "render");
@@ -138,6 +132,12 @@ std::int64_t join_files(const std::vector<std::string>& parts, const std::string
 }
 
 }  // namespace
+
+void refuse_standard_output(const std::string& output, const char* operation) {
+  if (output != "-") return;
+  throw UsageError(
+      fmt::format("{}: '-' is standard output only for the command line; name a file", operation));
+}
 
 void bind_render(py::module_& module) {
   module.def("render", &render_film, py::arg("script"), py::arg("output"), py::arg("options"),

@@ -66,6 +66,9 @@ class BoundOptions final : public cli::OptionTexts {
 /// @param operation  named in messages. @throws UsageError if the script is a storyboard.
 const Scene& scene_of(const BoundScript& script, const char* operation);
 
+/// @param operation  named in messages. @throws UsageError if the name is "-".
+void refuse_standard_output(const std::string& output, const char* operation);
+
 /// The memory of an array.
 /// @throws std::invalid_argument unless it is writable, without gaps, and has exactly so many bytes
 std::span<std::uint8_t> bytes_of(const pybind11::buffer& buffer, std::size_t size_bytes);
@@ -78,5 +81,6 @@ void bind_run(pybind11::module_& module);
 void bind_frames(pybind11::module_& module);
 void bind_render(pybind11::module_& module);
 void bind_golden(pybind11::module_& module);
+void bind_compare(pybind11::module_& module);
 
 }  // namespace piblocks::python

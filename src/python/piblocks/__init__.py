@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from . import _errors  # the extension raises what is defined there
 from . import _piblocks
+from ._compare import Comparison, compare
 from ._errors import (
     DrawError,
     Error,
@@ -30,6 +31,7 @@ __version__: str = _piblocks.VERSION
 
 __all__ = [
     "BodiesState",
+    "Comparison",
     "DrawError",
     "Error",
     "Frames",
@@ -43,6 +45,7 @@ __all__ = [
     "SimulationError",
     "State",
     "UsageError",
+    "compare",
     "join",
     "keys",
     "scenes",

@@ -13,8 +13,9 @@ from . import _piblocks
 _OPTIONS = {
     name: name.replace("-", "_")
     for name in (
-        "at base bounds bundle by crf diff digits dir encoder engine first frames jobs "
-        "last limit mass-ratio max-flashes part poster preset restitution smallest"
+        "at base bounds bundle by count-antialiasing crf diff digits dir encoder engine first "
+        "frames hard-delta ignore-transparent jobs last limit mass-ratio max-delta max-flashes "
+        "max-pixels max-window part poster preset restitution smallest threshold"
     ).split()
 } | {
     "allow-uncertain": "time_allow_uncertain=True",
@@ -34,6 +35,7 @@ _OPTIONS = {
     "logo": "show_logo",
     "loop": "time_loop=True",
     "loupe": "show_loupe",
+    "mask": "masks",
     "no-hits": "show_hits=False",
     "no-sound": "sound_on=False",
     "opaque": "view_background='opaque'",

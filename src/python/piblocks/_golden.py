@@ -30,7 +30,7 @@ class GoldenResult:
         return "\n".join(self.lines)
 
     def __repr__(self) -> str:
-        return f"<GoldenResult {self.outcome}: {'; '.join(self.lines)}>"
+        return f"<{type(self).__name__} {self.outcome}: {'; '.join(self.lines)}>"
 
 
 def _name(name: Any) -> bytes:

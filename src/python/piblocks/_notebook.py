@@ -69,6 +69,28 @@ def _media(data: bytes, kind: str) -> str:
     return f'<{tag} {source} controls style="max-width: 100%"></{tag}>'
 
 
+def _rendering(png: bytes) -> str:
+    """How to scale a PNG file to a third of a notebook: pixels of small ones stay squares."""
+    width = int.from_bytes(png[16:20], "big")
+    return "pixelated" if width < _LONGER_SIDE // 3 else "auto"
+
+
+def pictures_html(line: str, pictures: dict[str, bytes]) -> str:
+    """A line and, side by side, PNG files by their captions, unless they are large."""
+    text = f"<p>{escape(line)}</p>"
+    size = sum(map(len, pictures.values()))
+    if size > _MOST_UNASKED_BYTES:
+        return text + f"\n<p>The pictures would add {_megabytes(size)} to the notebook.</p>"
+    figures = "".join(
+        '<figure style="flex: 1; margin: 0">'
+        f'<img src="{_data_url(png, "image/png")}" alt="{caption}" '
+        f'style="width: 100%; image-rendering: {_rendering(png)}">'
+        f"<figcaption>{caption}</figcaption></figure>"
+        for caption, png in pictures.items()
+    )
+    return f'{text}\n<div style="display: flex; gap: 8px">{figures}</div>'
+
+
 def _require_embeddable(what: str, size: int) -> None:
     if size > _MOST_BYTES:
         raise UsageError(

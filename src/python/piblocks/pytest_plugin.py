@@ -1,43 +1,44 @@
-"""Holds scenes that tests return to golden references, as pytest-mpl does for figures.
+"""Holds scenes and pictures of tests to golden references, as pytest-mpl does for figures.
 
     @pytest.mark.piblocks_golden(dir="golden")
     def test_turn():
         return Scene(digits=2, view_size="640x360")
 
-``pytest`` alone runs the function. ``pytest --piblocks-golden`` compares its scene with the
-references beside the test's file; ``--piblocks-golden-record`` keeps new ones, and compares where
-there are some; ``--piblocks-golden-approve`` replaces them. The files are those of ``piblocks
-golden``. Their names are those of the module, the test and its parameters: of ``test_turn`` in
-``test_scenes.py`` they begin with ``test_scenes-test_turn``.
+    def test_plot(piblocks_golden):
+        piblocks_golden(figure, max_delta=2)  # or an array, an image of Pillow, a PNG file
+
+``pytest`` alone runs the function and reads its pictures. ``pytest --piblocks-golden`` compares them
+with the references beside the test's file; ``--piblocks-golden-record`` keeps new ones, and compares
+where there are some; ``--piblocks-golden-approve`` replaces them. The files of a scene are those of
+``piblocks golden``, a picture is a PNG file. Their names are those of the module, the test and its
+parameters: of ``test_turn`` in ``test_scenes.py`` they begin with ``test_scenes-test_turn``.
 """
 
 from __future__ import annotations
 
-import hashlib
 import os
-import re
+import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from . import _golden
+from ._compare import TOLERANCE
+from ._golden_picture import REMEDY, GoldenPictures, hold
+from ._picture import is_picture
+from ._references import CLAIMS, claim, place, results_folder
 from ._scene import Scene
 
 _MARK = "piblocks_golden"
-_REMEDY = ("pytest --piblocks-golden-record keeps new references, --piblocks-golden-approve replaces "
-           "them")
-_LONGEST_NAME = 150  # characters; a file name has 255, also for an instant and an ending
-#: The paths of references, and the test that has them.
-_CLAIMS: pytest.StashKey[Any] = pytest.StashKey()
 _ACTIONS = {"check": "--piblocks-golden", "record": "--piblocks-golden-record",
             "approve": "--piblocks-golden-approve"}
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    group = parser.getgroup("piblocks", "golden references of piblocks scenes")
+    group = parser.getgroup("piblocks", "golden references of piblocks")
     group.addoption("--piblocks-golden", action="store_true",
-                    help="compare the scenes of marked tests with their references")
+                    help="compare scenes and pictures of tests with their references")
     group.addoption("--piblocks-golden-record", action="store_true",
                     help="keep new references; compare where there are some")
     group.addoption("--piblocks-golden-approve", action="store_true",
@@ -49,10 +50,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line(
         "markers",
-        f"{_MARK}(dir='golden', name=None, frames=None): the test returns a piblocks Scene, which "
-        "is held to its references; dir is beside the test's file",
+        f"{_MARK}(dir='golden', name=None, frames=None, **tolerance): the test returns a piblocks "
+        "Scene or a picture, which is held to its references; dir is beside the test's file; "
+        "tolerances are those of piblocks.compare, for pictures",
     )
-    config.stash[_CLAIMS] = {}
+    config.stash[CLAIMS] = {}
     given = [option for option in _ACTIONS.values() if config.getoption(option)]
     if len(given) > 1:
         raise pytest.UsageError(f"{' and '.join(given)} exclude each other; give one of them")
@@ -62,61 +64,17 @@ def _action(config: pytest.Config) -> str | None:
     return next((name for name, option in _ACTIONS.items() if config.getoption(option)), None)
 
 
-def _module_path(item: pytest.Function, folder: Path) -> str:
-    """The test's file without its ending, from where the folder of the references is; else from
-    pytest's root. It does not depend on where pytest was started."""
-    file = Path(item.path)
-    for root in (folder.parent, item.config.rootpath):
-        if file.is_relative_to(root):
-            return file.relative_to(root).with_suffix("").as_posix()
-    return file.with_suffix("").as_posix()
-
-
-def _folded(text: str, allowed: str) -> str:
-    return re.sub(f"[^{allowed}]+", "_", text, flags=re.ASCII)
-
-
-def _reference_name(item: pytest.Function, folder: Path) -> str:
-    """A name that no other test has: MODULE-TEST or MODULE-TEST-PARAMETERS.
-
-    MODULE and TEST have letters, digits, "_" and ".", which stands for "/" and "::"; PARAMETERS
-    also have "-". What does not fit is folded, and a hash of the whole makes the name unique.
+@pytest.fixture
+def piblocks_golden(request: pytest.FixtureRequest) -> GoldenPictures:
+    """Holds pictures to references: piblocks_golden(picture, name=None, dir="golden", max_delta=…).
     """
-    module = _module_path(item, folder)
-    test, bracket, parameters = item.nodeid.split("::", 1)[-1].partition("[")
-    parameters = parameters.removesuffix("]")
-    name = "-".join(_folded(one, "A-Za-z0-9_.")
-                    for one in (module.replace("/", "."), test.replace("::", ".")))
-    if bracket:
-        name += "-" + _folded(parameters, "A-Za-z0-9_.-")
-    is_kept = (
-        re.fullmatch(r"[A-Za-z0-9_]+(/[A-Za-z0-9_]+)*", module)
-        and re.fullmatch(r"[A-Za-z0-9_]+(::[A-Za-z0-9_]+)*", test)
-        and re.fullmatch(r"[A-Za-z0-9_.-]*", parameters)
-        and len(name) <= _LONGEST_NAME
-    )
-    if is_kept:
-        return name
-    whole = f"{module}::{test}{bracket}{parameters}".encode("utf-8", "surrogatepass")
-    return f"{name[:_LONGEST_NAME]}~{hashlib.sha256(whole).hexdigest()[:10]}"
+    return GoldenPictures(request.node, _action(request.config))
 
 
-def _place(item: pytest.Function, mark: pytest.Mark) -> tuple[Path, str]:
-    """Folder and name of a test's references."""
-    given = mark.kwargs.get("dir", mark.args[0] if mark.args else "golden")
-    folder = Path(os.path.normpath(Path(item.path).parent / given))
-    return folder, mark.kwargs.get("name") or _reference_name(item, folder)
-
-
-def _claim(item: pytest.Item, path: str) -> None:
-    """Fails if the references of another test have this path."""
-    first = item.config.stash[_CLAIMS].setdefault(path, item.nodeid)
-    if first != item.nodeid:
-        pytest.fail(
-            f"the references '{path}' are those of {first} too; give {item.nodeid} a name or a "
-            "folder of its own",
-            pytrace=False,
-        )
+def _marked_place(item: pytest.Function, mark: pytest.Mark) -> tuple[Path, str]:
+    """Folder and name of the references of a marked test."""
+    folder, name = place(item, mark.kwargs.get("dir", mark.args[0] if mark.args else "golden"))
+    return folder, mark.kwargs.get("name") or name
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -129,12 +87,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         mark = item.get_closest_marker(_MARK)
         if mark is not None and isinstance(item, pytest.Function):
             try:
-                folder, name = _place(item, mark)
+                folder, name = _marked_place(item, mark)
             except TypeError:  # reported when the test runs
                 continue
             owner = first.setdefault(folder / str(name), item.nodeid)
             if owner != item.nodeid:
-                config.stash[_CLAIMS][str(folder / str(name))] = owner
+                config.stash[CLAIMS][str(folder / str(name))] = owner
 
 
 def _pages(script: Any, name: str, folder: Path, frames: Any, results: Path) -> list[str]:
@@ -143,22 +101,13 @@ def _pages(script: Any, name: str, folder: Path, frames: Any, results: Path) -> 
     return [f"page: {page}"] if has_pictures else []
 
 
-def _hold(item: pytest.Function, scene: Any, action: str, mark: pytest.Mark) -> None:
-    if not isinstance(scene, Scene):
-        pytest.fail(
-            f"{item.name} returned {type(scene).__name__}; a test marked {_MARK} returns a Scene",
-            pytrace=False,
-        )
-    unknown = set(mark.kwargs) - {"dir", "name", "frames"}
-    if unknown:
-        pytest.fail(f"{_MARK} has no argument '{sorted(unknown)[0]}'", pytrace=False)
-    folder, name = _place(item, mark)
+def _hold_scene(item: pytest.Function, scene: Scene, action: str, mark: pytest.Mark) -> None:
+    folder, name = _marked_place(item, mark)
     frames = mark.kwargs.get("frames")
-    _claim(item, str(folder / str(name)))
+    claim(item, str(folder / str(name)))
     for file in _golden.files(scene._script, name, folder, frames):
-        _claim(item, file)
-    results = item.config.getoption("--piblocks-golden-results")
-    diff = None if results is None or action == "approve" else Path(results)
+        claim(item, file)
+    diff = None if action == "approve" else results_folder(item.config)
     result = _golden.act(scene._script, action, name, folder, frames, diff)
     if result.outcome == "kept":
         result = _golden.act(scene._script, "check", name, folder, frames, diff)
@@ -170,7 +119,43 @@ def _hold(item: pytest.Function, scene: Any, action: str, mark: pytest.Mark) -> 
     lines = list(result.lines)
     if diff is not None and result.outcome == "different":
         lines += _pages(scene._script, name, folder, frames, diff)
-    pytest.fail("\n".join([*lines, _REMEDY]), pytrace=False)
+    pytest.fail("\n".join([*lines, REMEDY]), pytrace=False)
+
+
+def _hold_picture(item: pytest.Function, given: Any, action: str | None, mark: pytest.Mark) -> None:
+    folder, name = _marked_place(item, mark)
+    tolerance = {key: mark.kwargs[key] for key in TOLERANCE if key in mark.kwargs}
+    claim(item, str(folder / name))
+    hold(item, action, folder / f"{name}.png", given, tolerance)
+
+
+def _close(figure: Any) -> None:
+    """Frees a figure that pyplot holds; it is of no use after the test that has returned it."""
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    if pyplot is not None and hasattr(figure, "savefig"):
+        pyplot.close(figure)
+
+
+def _hold(item: pytest.Function, given: Any, action: str | None, mark: pytest.Mark) -> None:
+    of_what = ("frames",) if isinstance(given, Scene) else TOLERANCE
+    unknown = sorted(set(mark.kwargs) - {"dir", "name", *of_what})
+    if unknown:
+        pytest.fail(f"{_MARK} has no argument '{unknown[0]}' for a {type(given).__name__}",
+                    pytrace=False)
+    if isinstance(given, Scene):
+        if action is not None:
+            _hold_scene(item, given, action, mark)
+    elif is_picture(given) or isinstance(given, (str, os.PathLike, bytes)):
+        try:
+            _hold_picture(item, given, action, mark)
+        finally:
+            _close(given)
+    else:
+        pytest.fail(
+            f"{item.name} returned {type(given).__name__}; a test marked {_MARK} returns a Scene "
+            "or a picture",
+            pytrace=False,
+        )
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -179,8 +164,8 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
     if mark is None:
         return None
     names = pyfuncitem._fixtureinfo.argnames
-    scene = pyfuncitem.obj(**{name: pyfuncitem.funcargs[name] for name in names})
+    given = pyfuncitem.obj(**{name: pyfuncitem.funcargs[name] for name in names})
     action = _action(pyfuncitem.config)
-    if action is not None:
-        _hold(pyfuncitem, scene, action, mark)
+    if action is not None or is_picture(given):
+        _hold(pyfuncitem, given, action, mark)
     return True

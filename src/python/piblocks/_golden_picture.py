@@ -1,0 +1,139 @@
+"""Holds the pictures of pytest's tests to reference PNG files."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from . import _piblocks
+from ._compare import Comparison, judge
+from ._errors import Error, IoError
+from ._picture import picture
+from ._references import claim, labelled, place, results_folder, shown
+from ._values import require_str
+
+REMEDY = ("pytest --piblocks-golden-record keeps new references, --piblocks-golden-approve replaces "
+          "them")
+
+
+def hold(
+    item: pytest.Function, action: str | None, file: Path, given: Any, tolerance: dict[str, Any]
+) -> None:
+    """Compares a picture with its reference, or keeps it as such.
+
+    :param action: "check", "record", "approve"; without one the picture is only read.
+    """
+    made = picture("picture", given)
+    if isinstance(given, (str, os.PathLike)):  # no folder, no video
+        made = _piblocks.picture_of_png(made.png())
+    if action is not None:
+        claim(item, str(file))
+    if action == "check" or action == "record" and file.exists():
+        _check(item, file, made, tolerance)
+        return
+    judge(made, made, **tolerance)  # it can be read, and the tolerance makes sense
+    if action is not None:
+        _keep(item, file, made, tolerance)
+
+
+def _say(item: pytest.Function, file: Path, *lines: str) -> str:
+    """Adds lines to the report of the test; returns the first, which is about the reference."""
+    first = f"{shown(item.config, file)}: {lines[0]}"
+    item.add_report_section("call", "piblocks golden", "\n".join([first, *lines[1:]]))
+    return first
+
+
+def _text(result: Comparison) -> str:
+    return str(result).removeprefix(f"{result.name}: ")
+
+
+def _compared(file: Path, made: _piblocks.Picture, tolerance: dict[str, Any]) -> Comparison:
+    return judge(_piblocks.picture_of_path(os.fsencode(file)), made, **tolerance)
+
+
+def _keep(
+    item: pytest.Function, file: Path, made: _piblocks.Picture, tolerance: dict[str, Any]
+) -> None:
+    text = "recorded"
+    if file.exists():
+        try:
+            result = _compared(file, made, tolerance)
+        except IoError as error:
+            text = f"replaced ({error})"
+        else:
+            text = "equal" if result.outcome == "equal" else f"replaced ({_text(result)})"
+    if text != "equal":
+        made.write(os.fsencode(file))
+    _say(item, file, text)
+
+
+def _check(
+    item: pytest.Function, file: Path, made: _piblocks.Picture, tolerance: dict[str, Any]
+) -> None:
+    if not file.exists():
+        pytest.fail(f"{_say(item, file, 'there is no reference')}\n{REMEDY}", pytrace=False)
+    try:
+        result = _compared(file, made, tolerance)
+    except IoError as error:
+        pytest.fail(f"{_say(item, file, str(error))}\n{REMEDY}", pytrace=False)
+    try:
+        notes = _pictures(item.config, file.stem, result)
+    except Error as error:  # the folder has other files, or the disk is full
+        notes = [str(error)]
+    line = _say(item, file, _text(result), *notes)
+    if not result:
+        pytest.fail(f"{line}\n{REMEDY}", pytrace=False)
+
+
+def _pictures(config: pytest.Config, name: str, result: Comparison) -> list[str]:
+    """Writes the pictures of a failure and a page, or removes those of an earlier one. Returns
+    lines that name them."""
+    results = results_folder(config)
+    if results is None:
+        return []
+    folder, page = results / name, results / f"{name}.html"
+    result._made.save_pictures(os.fsencode(folder))
+    if result:
+        page.unlink(missing_ok=True)
+        return []
+    result.report(page)
+    pictures = {kind: folder / f"{name}-{kind}.png" for kind in ("expected", "actual", "diff")}
+    files = {kind: file for kind, file in pictures.items() if file.exists()} | {"page": page}
+    return [f"{kind}: {shown(config, file)}" for kind, file in files.items()]
+
+
+class GoldenPictures:
+    """The fixture ``piblocks_golden`` of one test."""
+
+    def __init__(self, item: pytest.Function, action: str | None) -> None:
+        self._item = item
+        self._action = action
+        self._labels: set[str] = set()
+
+    def __call__(
+        self, picture: Any, name: str | None = None, *, dir: Any = "golden", **tolerance: Any
+    ) -> None:
+        """Compares a picture with its reference, or keeps it as such: as the options of pytest say.
+
+        :param picture: an array, an image of Pillow, a figure of matplotlib, the bytes of a PNG
+            file or a path, as for ``piblocks.compare``.
+        :param name: of the picture among those of the test; without it they have numbers.
+        :param dir: the folder of the references, beside the test's file.
+        :param tolerance: what is accepted, as for ``piblocks.compare``: ``max_delta`` and so on.
+        :raises UsageError, IoError, TypeError: as ``piblocks.compare``.
+        """
+        __tracebackhide__ = True
+        folder, test = place(self._item, dir)
+        if name is not None:
+            require_str("name", name)
+        number = "" if not self._labels else str(len(self._labels) + 1)
+        label = number if name is None else name
+        if label in self._labels:
+            pytest.fail(f"{self._item.nodeid} has two pictures '{label}'; give one another name",
+                        pytrace=False)
+        self._labels.add(label)
+        file = folder / f"{labelled(test, label) if label else test}.png"
+        hold(self._item, self._action, file, picture, tolerance)
