@@ -14,6 +14,8 @@
 #include <system_error>
 #include <vector>
 
+#include "core/large_pages.hpp"
+
 namespace piblocks {
 
 /// Opening a pipe would wait for a writer, perhaps for ever.
@@ -42,7 +44,10 @@ inline std::vector<std::uint8_t> bytes_of_file(const std::filesystem::path& path
   if (!std::filesystem::is_regular_file(path, error)) return {};
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size > most_bytes) return {};
-  std::vector<std::uint8_t> bytes(size);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(size);
+  prefer_large_pages(bytes.data(), size);
+  bytes.resize(size);
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), std::ssize(bytes));
   return file.gcount() == std::ssize(bytes) ? bytes : std::vector<std::uint8_t>();

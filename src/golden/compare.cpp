@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -75,18 +76,27 @@ Word sample_of(Word word, std::size_t place) {
   return (word >> (place * kBits)) & ((Word{1} << kBits) - 1);
 }
 
-/// The largest delta of the samples of each pixel.
+/// The largest delta of the samples of each pixel. Every loop becomes vector instructions for
+/// single samples, which are four times as fast as those for words.
 template <typename Word>
 void find_deltas(const Word* a, const Word* b, std::vector<Level<Word>>& deltas) {
-  Level<Word>* const to = deltas.data();  // a local copy, since bytes may lie in any object
-  for (std::size_t x = 0, count = deltas.size(); x < count; ++x) {
-    Word largest = 0;
-    for (std::size_t place = 0; place < 4; ++place) {
-      const Word one = sample_of(a[x], place);
-      const Word other = sample_of(b[x], place);
-      largest = std::max(largest, one > other ? one - other : other - one);
+  using Sample = Level<Word>;
+  constexpr std::size_t kSamples = 4;
+  constexpr std::size_t kPixels = 64;
+  std::array<Sample, kSamples* kPixels> one = {};
+  std::array<Sample, kSamples* kPixels> other = {};
+  std::array<Sample, kSamples* kPixels> delta = {};
+  for (std::size_t begin = 0; begin < deltas.size(); begin += kPixels) {
+    const std::size_t count = std::min(kPixels, deltas.size() - begin);
+    std::memcpy(one.data(), a + begin, count * sizeof(Word));
+    std::memcpy(other.data(), b + begin, count * sizeof(Word));
+    for (std::size_t i = 0; i < delta.size(); ++i) {
+      delta[i] = static_cast<Sample>(std::max(one[i], other[i]) - std::min(one[i], other[i]));
     }
-    to[x] = static_cast<Level<Word>>(largest);
+    for (std::size_t i = 0; i + 1 < delta.size(); ++i) delta[i] = std::max(delta[i], delta[i + 1]);
+    for (std::size_t i = 0; i + 2 < delta.size(); ++i) delta[i] = std::max(delta[i], delta[i + 2]);
+    Sample* const to = deltas.data() + begin;
+    for (std::size_t x = 0; x < count; ++x) to[x] = delta[kSamples * x];
   }
 }
 
@@ -295,13 +305,12 @@ class Counter {
   template <typename Level>
   std::int64_t mark_off(int y, const std::vector<Level>& deltas) {
     const auto max_delta = static_cast<Level>(max_delta_);
-    std::int32_t off = 0;
-    for (std::size_t x = 0; x < deltas.size(); ++x) {
-      is_off_[x] = perceptual_ ? deltas[x] != 0 && perceptual_->is_off(static_cast<int>(x), y)
-                               : deltas[x] > max_delta;
-      off += is_off_[x];
+    const auto is_off = [&](Level delta) { return delta > max_delta; };
+    if (!perceptual_) std::ranges::transform(deltas, is_off_.begin(), is_off);
+    for (std::size_t x = 0; perceptual_ && x < deltas.size(); ++x) {
+      is_off_[x] = deltas[x] != 0 && perceptual_->is_off(static_cast<int>(x), y);
     }
-    return off;
+    return std::accumulate(is_off_.begin(), is_off_.end(), 0);
   }
 
   const Rows& reference_;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/large_pages.hpp"
 #include "media/png/png_chunk.hpp"
 
 namespace piblocks {
@@ -159,6 +160,7 @@ std::shared_ptr<std::uint8_t[]> inflate(ByteSpan zlib, std::size_t bytes) {
   const Decompressor decompressor(libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
   if (!decompressor) return {};
   auto rows = std::make_shared_for_overwrite<std::uint8_t[]>(bytes + kSlack);
+  prefer_large_pages(rows.get(), bytes);
   std::size_t consumed = 0;
   const auto result = libdeflate_zlib_decompress_ex(decompressor.get(), zlib.data(), zlib.size(),
                                                     rows.get(), bytes, &consumed, nullptr);
