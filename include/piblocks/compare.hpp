@@ -93,10 +93,11 @@ inline constexpr std::size_t kMaxHashes = 2'000'000;
 
 /// A part of pictures that is not compared.
 struct Mask {
-  std::string text;          ///< as it was given, for messages
-  std::string picture = {};  ///< a name or a pattern of the shell; empty for all
+  std::string text;               ///< as it was given, for messages
+  std::string name_pattern = {};  ///< of pictures: a name, or a pattern of the shell; empty for all
   std::vector<PixelRect> rects = {};
   std::optional<PixelRect> whole = {};  ///< the size that a picture must have, from 0, 0
+  bool must_hide = true;  ///< whether it is wrong usage if the mask hides a part of no picture
 };
 
 /// The reference and the actual side may each be a PNG file, a folder of them, a numbered pattern

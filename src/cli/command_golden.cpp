@@ -147,8 +147,8 @@ bool is_about_folder(const Command& options) {
   if (!options.is_given("--against")) return false;
   for (const char* const option : {"--dir", "--frames"}) {
     if (!options.is_given(option)) continue;
-    throw UsageError(
-        fmt::format("{} is about scenes; --against, about a folder of pictures", option));
+    throw UsageError(fmt::format(
+        "{} is for scenes, --against for a folder of pictures; use one of them", option));
   }
   return true;
 }
@@ -221,11 +221,12 @@ void define_golden(Command& command) {
       "are there are not what is drawn: then it adds nothing. approve ends with 0 if it has "
       "replaced\n"
       "them. 2 is wrong usage, and 1 a failure, as of all commands.\n\n"
-      "With --against, SCENE is one folder of pictures, of any program; only 'approve' takes "
-      "names\n"
-      "behind it. Exit codes are those of 'piblocks compare'. What 'record' and 'approve' are told "
-      "to\n"
-      "accept is kept beside the references, and holds in later checks.\n\n"
+      "With --against, SCENE is one folder of pictures, of any program. Behind it, 'approve' "
+      "takes\n"
+      "names of pictures; its --accepted takes the list that the page of --report makes. Exit "
+      "codes\n"
+      "are those of 'piblocks compare'. Tolerances and masks of 'record' and 'approve' are kept\n"
+      "beside the references for later commands.\n\n"
       "Examples:\n"
       "  piblocks golden record scenes/*.toml --dir golden\n"
       "  piblocks golden check scenes/*.toml --dir golden --diff differences\n"

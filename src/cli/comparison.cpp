@@ -124,7 +124,7 @@ void check_reports(const Command& options, const ComparisonJob& job) {
     claim_diff_folder(check, "--report", folder_of_report(*page),
                       DiffPictures::Making::when_needed);
   } else if (!page && options.is_given("--report-in-one-file")) {
-    throw UsageError("--report-in-one-file is about the page of --report; name that");
+    throw UsageError("--report-in-one-file needs --report FILE.html");
   }
   if (!options.is_given("--quiet")) check.writes_standard_output();
   check.check();
@@ -137,14 +137,14 @@ void define_tolerance(Command& command) {
                     "Accept samples that differ by up to D, where 255 is the full\n"
                     "range at any depth: 0.25 is one level of 10 bits");
   command.add_value("--threshold", "T",
-                    "Accept instead what looks alike, 0 to 1, as odiff and pixelmatch 7\n"
-                    "do (they take 0.1), and pixels of smoothed edges");
+                    "Instead of --max-delta: accept pixels that look alike, and smoothed\n"
+                    "edges. T is from 0 (equal) to 1; odiff and pixelmatch 7 take 0.1");
   command.add_flag("--count-antialiasing", "With --threshold, do not accept smoothed edges");
   command.add_flag("--ignore-transparent",
                    "Accept any colour of pixels that are fully transparent");
   command.add_value("--max-pixels", "N",
                     "Accept up to N pixels of a frame that differ by more, or N%");
-  command.add_value("--hard-delta", "D", "Accept no sample at all that differs by more than D");
+  command.add_value("--hard-delta", "D", "Reject a frame if any sample differs by more than D");
   command.add_value("--max-window", "N:K", "Accept up to K such pixels in any square of NxN");
   command.add_values("--mask", "MASK",
                      "Leave out a part: WxH+X+Y, or what is not black in a PNG file; of\n"

@@ -14,34 +14,41 @@
 #include "cli/golden_settings.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
-#include "cli/tolerance_options.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "golden/difference.hpp"
+#include "golden/picture_list.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
 /// The pictures, the references and what is accepted.
-struct Folder {
-  explicit Folder(const Command& command)
+struct FolderComparison {
+  explicit FolderComparison(const Command& command)
       : arguments(command.texts("SCENE")),
         pictures(arguments.front()),
         references(*command.text("--against")),
-        options(command, references),
+        settings(command, references),
         job{references, pictures} {
     std::error_code error;
     if (!fs::is_directory(pictures, error)) {
       throw UsageError(fmt::format("golden: '{}' is no folder of pictures", pictures.string()));
     }
-    if (lies_in(references, pictures) || lies_in(pictures, references)) {
-      throw UsageError(fmt::format(
-          "golden: of '{}' and '{}' one lies in the other; put the references elsewhere",
-          pictures.string(), references.string()));
+    const bool is_there = fs::exists(fs::symlink_status(references, error));
+    if (is_picture_pattern(references) || (is_there && !fs::is_directory(references, error))) {
+      throw UsageError(
+          fmt::format("golden: '{}' is no folder; --against takes the folder of the references",
+                      references.string()));
     }
-    read_tolerance(options, job);
+    if (lies_in(references, pictures) || lies_in(pictures, references)) {
+      throw UsageError(
+          fmt::format("golden: '{}' and '{}' must not contain each other; choose another folder "
+                      "for the references",
+                      pictures.string(), references.string()));
+    }
+    settings.apply_to(job);
   }
 
   /// @throws UsageError if anything follows the folder
@@ -56,7 +63,7 @@ struct Folder {
   std::vector<std::string> arguments;
   fs::path pictures;
   fs::path references;
-  GoldenSettings options;
+  GoldenSettings settings;
   ComparisonJob job;
 };
 
@@ -68,7 +75,7 @@ struct Row {
   std::string text;
 };
 
-std::vector<Row> compared(const Folder& folder) {
+std::vector<Row> compared(const FolderComparison& folder) {
   const StopOnSignals signals;
   std::vector<Row> rows;
   const auto result = compare_files(
@@ -94,7 +101,7 @@ void check_readable(const std::vector<Row>& rows) {
                   fmt::format("golden: {} cannot be read", counted(unread, "picture")));
 }
 
-void copy_to_references(const Folder& folder, const Row& row) {
+void copy_to_references(const FolderComparison& folder, const Row& row) {
   constexpr std::size_t kAny = std::size_t{1} << 40;
   const std::vector<std::uint8_t> bytes = bytes_of_file(row.actual, kAny);
   if (bytes.empty()) throw IoError(fmt::format("golden: cannot read '{}'", row.actual));
@@ -103,18 +110,26 @@ void copy_to_references(const Folder& folder, const Row& row) {
   file.finish();
 }
 
+void remove_reference(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (!error) return;
+  throw IoError(fmt::format("golden: cannot remove '{}': {}", path.string(), error.message()));
+}
+
 /// The names behind the folder, and those of a list that a report has made.
-std::set<std::string> chosen_names(const Command& command, const Folder& folder) {
+std::set<std::string> chosen_names(const Command& command, const FolderComparison& folder) {
   std::set<std::string> names(folder.arguments.begin() + 1, folder.arguments.end());
   const auto list = command.text("--accepted");
   if (!list) return names;
+  std::error_code error;
+  const bool is_there = fs::exists(*list, error);
   const std::vector<std::string> lines = lines_of(*list);
   names.insert(lines.begin(), lines.end());
   names.erase("");
-  if (names.empty()) {
-    throw UsageError(fmt::format("golden: '{}' has no names, or is not there", *list));
-  }
-  return names;
+  if (!names.empty()) return names;
+  throw UsageError(is_there ? fmt::format("golden: '{}' has no names", *list)
+                            : fmt::format("golden: there is no list '{}'", *list));
 }
 
 /// The rows to act on. @throws UsageError for names that no row has
@@ -126,35 +141,39 @@ std::vector<Row> chosen_rows(const std::vector<Row>& rows, const std::set<std::s
     if (is_named || (names.empty() && row.outcome > Outcome::accepted)) chosen.push_back(row);
   }
   if (left.empty()) return chosen;
-  throw UsageError(fmt::format("golden: there is no picture '{}'", fmt::join(left, "', '")));
+  throw UsageError(
+      fmt::format("golden: there is no picture '{}'; names are paths in the folder of pictures",
+                  fmt::join(left, "', '")));
 }
 
 }  // namespace
 
 void check_folder(const Command& command) {
-  const Folder folder(command);
+  const FolderComparison folder(command);
   folder.refuse_names();
   run_comparison(command, folder.job, [&](const ComparisonResult& result) {
     std::vector<std::string> notes;
-    if (const std::int64_t unused = result.count(Outcome::missing); unused > 0) {
+    if (result.reference_frames == 0) {
+      notes.emplace_back("'golden record' makes references of all pictures");
+    } else if (const auto unused = result.count(Outcome::missing); unused > 0) {
       notes.push_back(
           fmt::format("{} without a picture; 'golden approve --remove-unused' removes what is not "
                       "used any more",
                       counted(unused, "reference")));
     }
-    const std::string& theirs = folder.options.recorded_beside();
-    if (result.worst() > Outcome::accepted && !theirs.empty() && theirs != painter()) {
-      notes.push_back(
-          fmt::format("the references were recorded beside {}; this machine has {}, "
-                      "which may be why text and edges differ",
-                      theirs, painter()));
+    const std::string& theirs = folder.settings.recorded_with();
+    if (result.worst() > Outcome::accepted && !theirs.empty() && theirs != library_versions()) {
+      notes.push_back(fmt::format(
+          "the references were recorded with {}; this machine has {}, so text and edges "
+          "may differ",
+          theirs, library_versions()));
     }
     return notes;
   });
 }
 
 void record_folder(const Command& command) {
-  const Folder folder(command);
+  const FolderComparison folder(command);
   folder.refuse_names();
   TextOutput out;
   int code = 0;
@@ -170,15 +189,16 @@ void record_folder(const Command& command) {
   if (code != 0) {
     out.finish();
     throw ExitError(code,
-                    "golden: nothing is recorded, since references are not what is there now; "
-                    "--missing adds those that are missing, 'golden approve' replaces the others");
+                    "golden: nothing is recorded, since the pictures above are not equal to their "
+                    "references, or cannot be read; --missing records the new ones, 'golden "
+                    "approve' replaces references");
   }
   for (const Row& row : rows) {
     if (row.outcome != Outcome::added || row.actual.empty()) continue;
     copy_to_references(folder, row);
     ++recorded;
   }
-  folder.options.write();
+  folder.settings.write(GoldenSettings::Versions::as_before);
   for (const Row& row : rows) {
     if (row.outcome != Outcome::unreadable) continue;
     out.line(printable(fmt::format("{}: left as it is ({})", row.name, row.text)));
@@ -189,7 +209,7 @@ void record_folder(const Command& command) {
 }
 
 void approve_folder(const Command& command) {
-  const Folder folder(command);
+  const FolderComparison folder(command);
   const std::set<std::string> names = chosen_names(command, folder);
   TextOutput out;
   std::int64_t replaced = 0;
@@ -204,16 +224,17 @@ void approve_folder(const Command& command) {
       ++(is_new ? added : replaced);
       done = is_new ? "added" : "replaced";
     } else if (row.outcome == Outcome::missing && command.is_given("--remove-unused")) {
-      fs::remove(folder.references / row.name);
+      remove_reference(folder.references / row.name);
       removed.insert(row.name);
       done = "removed";
     }
-    if (done != nullptr) out.line(printable(fmt::format("{}: {} ({})", row.name, done, row.text)));
-    if (done == nullptr && row.outcome != Outcome::equal) {
-      out.line(printable(fmt::format("{}: left as it is ({})", row.name, row.text)));
-    }
+    if (done == nullptr && row.outcome == Outcome::equal) continue;
+    out.line(printable(
+        fmt::format("{}: {} ({})", row.name, done != nullptr ? done : "left as it is", row.text)));
+    out.flush();  // what is done is said, also if the next one fails
   }
-  folder.options.write(removed);
+  using Versions = GoldenSettings::Versions;
+  folder.settings.write(names.empty() ? Versions::of_this_machine : Versions::as_before, removed);
   out.line(
       fmt::format("approved: {} replaced, {} added, {} removed", replaced, added, removed.size()));
   out.finish();

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "cli/tolerance_options.hpp"
 #include "core/input_file.hpp"
@@ -17,9 +19,9 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// Beside the references: a comment that says what paints on this machine, and options.
+/// Beside the references: comments, of which one says what paints on this machine, and options.
 constexpr const char* kSettings = "piblocks-golden.txt";
-constexpr std::string_view kPainter = "# recorded beside ";
+constexpr std::string_view kVersions = "# recorded with ";
 
 bool is_tolerance_option(const std::string& name) {
   return std::ranges::any_of(kToleranceOptions, [&](const char* one) { return one == name; });
@@ -45,9 +47,27 @@ std::string with_path(const std::string& mask, const Change& change) {
   return mask.substr(0, begin) + change(fs::path(mask.substr(begin))).string();
 }
 
+/// The options of a file.
+class KeptOptions final : public OptionTexts {
+ public:
+  explicit KeptOptions(const std::map<std::string, std::vector<std::string>>& values)
+      : values_(values) {}
+
+  bool is_given(const std::string& option) const override { return values_.contains(option); }
+  std::optional<std::string> text(const std::string& option) const override {
+    return is_given(option) ? std::optional(values_.at(option).front()) : std::nullopt;
+  }
+  std::vector<std::string> texts(const std::string& option) const override {
+    return is_given(option) ? values_.at(option) : std::vector<std::string>();
+  }
+
+ private:
+  const std::map<std::string, std::vector<std::string>>& values_;
+};
+
 }  // namespace
 
-std::string painter() {
+std::string library_versions() {
   const std::string all = painter_fingerprint();
   return all.substr(0, all.find(", fonts"));
 }
@@ -77,11 +97,22 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
 GoldenSettings::GoldenSettings(const Command& given, const fs::path& references)
     : given_(given), path_(references / kSettings), replaces_(has_tolerance(given)) {
   for (const std::string& line : lines_of(path_)) read(line);
+  from_references(given.texts("--mask"));
 }
 
-std::optional<std::string> GoldenSettings::text(const std::string& option) const {
-  const std::vector<std::string> all = texts(option);
-  return all.empty() ? std::nullopt : std::optional(all.front());
+void GoldenSettings::apply_to(ComparisonJob& job) const {
+  read_tolerance(given_, job);
+  ComparisonJob kept;
+  try {
+    read_tolerance(KeptOptions(kept_), kept);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("golden: '{}': {}", path_.string(), error.what()));
+  }
+  if (!replaces_) job.tolerance = kept.tolerance;
+  for (Mask& mask : kept.masks) {
+    mask.must_hide = false;
+    job.masks.push_back(std::move(mask));
+  }
 }
 
 std::vector<std::string> GoldenSettings::texts(const std::string& option) const {
@@ -92,11 +123,13 @@ std::vector<std::string> GoldenSettings::texts(const std::string& option) const 
   return all;
 }
 
-void GoldenSettings::write(const std::set<std::string>& removed) const {
-  std::string text = fmt::format("{}{}\n", kPainter, painter());
+void GoldenSettings::write(Versions versions, const std::set<std::string>& removed) const {
+  const bool is_here = versions == Versions::of_this_machine || versions_.empty();
+  std::string text = fmt::format("{}{}\n", kVersions, is_here ? library_versions() : versions_);
+  for (const std::string& comment : comments_) text += comment + '\n';
   for (const std::string option : kToleranceOptions) {
     std::vector<std::string> values = texts(option);
-    if (option == "--mask") to_references(values);
+    if (option == "--mask") values = from_references(values);
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
     std::erase_if(values, [&](const std::string& value) {
@@ -114,13 +147,18 @@ void GoldenSettings::write(const std::set<std::string>& removed) const {
 }
 
 void GoldenSettings::read(const std::string& line) {
-  if (line.starts_with(kPainter)) painter_ = line.substr(kPainter.size());
+  if (line.starts_with(kVersions)) {
+    versions_ = line.substr(kVersions.size());
+    return;
+  }
+  if (line.starts_with('#')) comments_.push_back(line);
   if (line.empty() || line.starts_with('#')) return;
   const std::size_t end = line.find('=');
   const std::string name = line.substr(0, end);
   if (!is_tolerance_option(name)) {
-    throw UsageError(fmt::format("golden: '{}' has '{}'; it may have {}", path_.string(),
-                                 shortened(line), fmt::join(kToleranceOptions, ", ")));
+    throw UsageError(fmt::format("golden: '{}' has '{}'; it may have {}, such as --max-delta=3",
+                                 path_.string(), shortened(line),
+                                 fmt::join(kToleranceOptions, ", ")));
   }
   const bool has_value = end != std::string::npos;
   if (has_value == is_flag(name)) {
@@ -130,19 +168,23 @@ void GoldenSettings::read(const std::string& line) {
   std::vector<std::string>& values = kept_[name];
   values.push_back(has_value ? line.substr(end + 1) : "true");
   if (name == "--mask") {
-    const auto from_references = [this](const fs::path& path) {
+    values.back() = with_path(values.back(), [this](const fs::path& path) {
       return (path_.parent_path() / path).lexically_normal();
-    };
-    values.back() = with_path(values.back(), from_references);
+    });
   }
   if (values.size() > 1 && name != "--mask") {
     throw UsageError(fmt::format("golden: '{}' has {} twice", path_.string(), name));
   }
 }
 
-void GoldenSettings::to_references(std::vector<std::string>& masks) const {
+std::vector<std::string> GoldenSettings::from_references(std::vector<std::string> masks) const {
   const fs::path folder = path_.parent_path();
   for (std::string& mask : masks) {
+    if (mask.find('\n') != std::string::npos) {
+      throw UsageError(
+          fmt::format("golden: the mask '{}' has an end of line in its name, and cannot be kept",
+                      printable(mask)));
+    }
     mask = with_path(mask, [&](const fs::path& path) {
       if (!lies_in(path, folder)) return fs::proximate(path, folder);
       throw UsageError(fmt::format(
@@ -151,6 +193,7 @@ void GoldenSettings::to_references(std::vector<std::string>& masks) const {
           path.string()));
     });
   }
+  return masks;
 }
 
 }  // namespace piblocks::cli

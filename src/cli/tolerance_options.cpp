@@ -62,9 +62,10 @@ Mask parse_mask(const std::string& text) {
   Mask mask{.text = text};
   const std::size_t colon = text.rfind(':');
   const bool is_named = colon != std::string::npos;
-  if (is_named) mask.picture = text.substr(0, colon);
+  if (is_named) mask.name_pattern = text.substr(0, colon);
   const std::string place = is_named ? text.substr(colon + 1) : text;
-  if (is_named && mask.picture.empty()) throw UsageError("there is no name in front of the colon");
+  if (is_named && mask.name_pattern.empty())
+    throw UsageError("there is no name in front of the colon");
   if (!has_ending(place, ".png")) {
     mask.rects = {parse_rect(place)};
     return mask;
@@ -76,7 +77,7 @@ Mask parse_mask(const std::string& text) {
     throw UsageError(error.what());
   }
   Mask drawn = mask_of_picture(text, picture);
-  drawn.picture = mask.picture;
+  drawn.name_pattern = mask.name_pattern;
   return drawn;
 }
 

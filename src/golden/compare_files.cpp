@@ -45,14 +45,14 @@ class PairTaker {
   void finish() const {
     if (!is_compared_) return;
     for (std::size_t i = 0; i < hides_.size(); ++i) {
-      if (hides_[i]) continue;
       const Mask& mask = job_.masks[i];
+      if (hides_[i] || !mask.must_hide) continue;
       throw UsageError(
-          mask.picture.empty()
+          mask.name_pattern.empty()
               ? fmt::format("compare: the mask {} lies outside of every picture that is compared",
                             mask.text)
               : fmt::format("compare: the mask {} hides nothing: no picture that is compared has "
-                            "this name, and reaches there",
+                            "this name, or the mask lies outside of it",
                             mask.text));
     }
   }

@@ -199,15 +199,18 @@ const Picture& comparable(const Picture& image) {
 
 /// Whether a mask is about one of these pictures.
 bool concerns(const Mask& mask, const Fetched& reference, const Fetched& actual) {
+  const std::string& pattern = mask.name_pattern;
   const auto fits = [&](const std::string& name) {
-    return ::fnmatch(mask.picture.c_str(), name.c_str(), 0) == 0;
+    return pattern == name || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
   };
-  return mask.picture.empty() || fits(reference.name) || fits(actual.name);
+  return pattern.empty() || fits(reference.name) || fits(actual.name);
 }
 
-/// @throws UsageError if a mask that is a picture is of another size
-void check_size(const Mask& mask, const PictureSize& size, const std::string& name) {
-  if (!mask.whole || PictureSize{mask.whole->width_px, mask.whole->height_px} == size) return;
+/// @returns false if a mask that is a picture is of another size, and need not hide anything.
+/// @throws UsageError if it has to
+bool fits_size(const Mask& mask, const PictureSize& size, const std::string& name) {
+  if (!mask.whole || PictureSize{mask.whole->width_px, mask.whole->height_px} == size) return true;
+  if (!mask.must_hide) return false;
   throw UsageError(fmt::format("compare: the mask {} is {}x{}, and '{}' is {}x{}", mask.text,
                                mask.whole->width_px, mask.whole->height_px, name, size.width_px,
                                size.height_px));
@@ -221,7 +224,7 @@ std::vector<PixelRect> masks_of(const ComparisonJob& job, const Fetched& referen
   for (std::size_t i = 0; i < job.masks.size(); ++i) {
     const Mask& mask = job.masks[i];
     if (!concerns(mask, reference, actual)) continue;
-    check_size(mask, size, result.row.name);
+    if (!fits_size(mask, size, result.row.name)) continue;
     rects.insert(rects.end(), mask.rects.begin(), mask.rects.end());
     const auto hides = [&](const PixelRect& r) {
       return r.x_px < size.width_px && r.y_px < size.height_px;

@@ -47,7 +47,7 @@ class Perceptual {
         most_(35215 * threshold * threshold),
         ignores_smoothing_(ignores_smoothing) {}
 
-  /// Whether a pixel looks different, and none of both pictures has a smoothed edge there.
+  /// Whether a pixel looks different, and is an ignored smoothed edge in neither picture.
   bool is_off(int x, int y) const {
     const Yiq a = yiq_of(levels_at(reference_, x, y));
     const Yiq b = yiq_of(levels_at(actual_, x, y));

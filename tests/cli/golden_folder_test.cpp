@@ -186,7 +186,28 @@ TEST_F(GoldenFolderTest, ApproveRefusesNamesThatNoPictureHas) {
   expect_refused("approve", {"--accepted", "accepted.txt"}, "there is no picture 'nope.png'");
   write("accepted.txt", "\n\n");
   expect_refused("approve", {"--accepted", "accepted.txt"}, "'accepted.txt' has no names");
-  expect_refused("approve", {"--accepted", "none.txt"}, "'none.txt' has no names");
+  expect_refused("approve", {"--accepted", "none.txt"}, "there is no list 'none.txt'");
+}
+
+TEST_F(GoldenFolderTest, OnlyAFolderHasReferences) {
+  record();
+  for (const char* references : {"out/a.png", "refs/%06d.png", "%d.png"}) {
+    for (const char* action : {"check", "record", "approve"}) {
+      expect_refusal({"golden", action, "out", "--against", references}, "is no folder; --against");
+    }
+  }
+}
+
+TEST_F(GoldenFolderTest, WhatIsDoneIsSaidIfTheRestFails) {
+  record();
+  for (const char* name : {"out/a.png", "out/b.png", "out/sub/c.png"}) write_grey(name, 50);
+  fs::remove_all(folder_ / "refs/sub");
+  write("refs/sub", "in the way");
+  const CommandResult result = golden("approve");
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_TRUE(contains(result.out, "a.png: replaced")) << result.out;
+  EXPECT_TRUE(contains(result.out, "b.png: replaced")) << result.out;
+  EXPECT_TRUE(contains(result.err, "refs/sub")) << result.err;
 }
 
 TEST_F(GoldenFolderTest, ApproveRemovesReferencesOnlyIfItIsAskedTo) {
@@ -245,7 +266,7 @@ TEST_F(GoldenFolderTest, PicturesMayHaveAnyName) {
 TEST_F(GoldenFolderTest, FoldersInEachOtherAreRefused) {
   record();
   fs::create_directory_symlink("refs", folder_ / "link");
-  const std::string message = "one lies in the other; put the references elsewhere";
+  const std::string message = "must not contain each other";
   for (const auto& [pictures, references] : {std::pair("out", "out"),
                                              {"out", "out/refs"},
                                              {"out/sub", "out"},
@@ -287,8 +308,8 @@ TEST_F(GoldenFolderTest, OptionsAndNamesThatBelongElsewhereAreRefused) {
     expect_refused(action, {"--remove-unused"}, "unknown option '--remove-unused'");
   }
   for (const char* action : {"check", "record", "approve"}) {
-    expect_refused(action, {"--dir", "refs"}, "--dir is about scenes");
-    expect_refused(action, {"--frames", "last"}, "--frames is about scenes");
+    expect_refused(action, {"--dir", "refs"}, "--dir is for scenes");
+    expect_refused(action, {"--frames", "last"}, "--frames is for scenes");
   }
   expect_refused("check", {"--missing"}, "unknown option '--missing'");
 }

@@ -162,18 +162,65 @@ TEST_F(GoldenSettingsTest, BadLinesAreRefusedByName) {
   expect_bad_settings("--max-delta=\n", "--max-delta");
   expect_bad_settings("--mask=1x1\n", "--mask 1x1: must be WxH+X+Y");
   expect_bad_settings("--threshold=0.1\n--max-delta=5\n", "use one of them");
-  expect_bad_settings("--mask=nope.png:1x1+0+0\n", "the mask nope.png:1x1+0+0 hides nothing");
+  expect_bad_settings("--max-delta=3000\n", "'refs/piblocks-golden.txt': --max-delta 3000");
+}
+
+/// Pictures may have gone, or have another size.
+TEST_F(GoldenSettingsTest, AKeptMaskNeedNotHideAnything) {
+  record();
+  write_grey("mask.png", 0, {{0, 0, 255}});
+  write_settings("--mask=nope.png:1x1+0+0\n--mask=1x1+999+0\n--mask=../mask.png\n");
+  EXPECT_EQ(check(), 1);
+  EXPECT_EQ(check({"--max-delta", "5"}), 0);
+  expect_refusal({"golden", "check", "out", "--against", "refs", "--mask", "nope.png:1x1+0+0"},
+                 "the mask nope.png:1x1+0+0 hides nothing");
+}
+
+TEST_F(GoldenSettingsTest, AMaskThatCannotBeKeptIsRefusedBeforeAnythingIsDone) {
+  record();
+  write_grey("refs/m.png", 255);
+  const std::string before = contents("refs/a.png");
+  for (const std::string mask : {"refs/m.png", "x\ny.png:1x1+0+0"}) {
+    for (const char* action : {"record", "approve"}) {
+      EXPECT_EQ(golden(action, {"--mask", mask}).exit_code, 2) << mask;
+    }
+  }
+  EXPECT_EQ(contents("refs/a.png"), before);
+}
+
+TEST_F(GoldenSettingsTest, CommentsStay) {
+  record({"--max-delta", "2"});
+  write_settings("# ours, by hand\n\n--max-delta=5\n");
+  EXPECT_EQ(golden("approve").exit_code, 0);
+  EXPECT_TRUE(contains(contents("refs/piblocks-golden.txt"), "# ours, by hand\n--max-delta=5\n"));
+}
+
+TEST_F(GoldenSettingsTest, ANameWithBracketsIsAlsoItself) {
+  write_grey("out/t[1].png", 100);
+  record();
+  write_grey("out/a.png", 100);
+  write_grey("out/t[1].png", 200);
+  EXPECT_EQ(check({"--mask", "t[1].png:9x10+0+0", "--mask", "t[[]1].png:1x9+9+0"}), 1);
+  EXPECT_EQ(check({"--mask", "t[1].png:9x10+0+0", "--max-pixels", "10"}), 0);
+}
+
+/// The others may still be what the earlier machine has drawn.
+TEST_F(GoldenSettingsTest, ApprovingSomePicturesKeepsTheVersionsOfTheOthers) {
+  record();
+  write_settings("# recorded with cairo 9.9\n");
+  EXPECT_EQ(golden("approve", {"a.png"}).exit_code, 0);
+  EXPECT_EQ(lines(contents("refs/piblocks-golden.txt")), Names{"# recorded with cairo 9.9"});
 }
 
 TEST_F(GoldenSettingsTest, AnotherPainterIsNamedWhereSomethingDiffers) {
   record();
   const std::string ours = lines(contents("refs/piblocks-golden.txt")).front();
-  ASSERT_TRUE(ours.starts_with("# recorded beside cairo ")) << ours;
-  const std::string note = "the references were recorded beside cairo 9.9; this machine has cairo ";
+  ASSERT_TRUE(ours.starts_with("# recorded with cairo ")) << ours;
+  const std::string note = "the references were recorded with cairo 9.9; this machine has cairo ";
   EXPECT_FALSE(contains(golden("check").out, "the references were recorded"));
-  write_settings("# recorded beside cairo 9.9\n");
+  write_settings("# recorded with cairo 9.9\n");
   EXPECT_TRUE(contains(golden("check").out, note));
-  EXPECT_FALSE(contains(golden("check", {"--max-delta", "5"}).out, "recorded beside"));
+  EXPECT_FALSE(contains(golden("check", {"--max-delta", "5"}).out, "recorded with"));
   EXPECT_EQ(golden("check", {"--quiet"}).out, "");
   EXPECT_EQ(golden("approve").exit_code, 0);
   EXPECT_EQ(lines(contents("refs/piblocks-golden.txt")), Names{ours});

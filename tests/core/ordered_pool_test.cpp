@@ -1,10 +1,10 @@
+#include "core/ordered_pool.hpp"
+
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
 #include <atomic>
 #include <chrono>
-
-#include "core/ordered_pool.hpp"
 
 namespace piblocks {
 namespace {

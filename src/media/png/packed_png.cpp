@@ -148,7 +148,7 @@ bool has_full_window(ByteSpan zlib, std::size_t bytes) {
 /// Rows are read and written by four bytes: so many may lie behind their end.
 constexpr std::size_t kSlack = 3;
 
-/// Deflate makes a byte to at most 1032 (RFC 1951): a small file cannot ask for much memory.
+/// Deflate expands a byte to at most 1032 (RFC 1951): a small file cannot ask for much memory.
 constexpr std::size_t kMostInflation = 1032;
 
 std::shared_ptr<std::uint8_t[]> inflate(ByteSpan zlib, std::size_t bytes) {
@@ -342,6 +342,7 @@ Image unpacked(const PackedImage& packed) {
   return image;
 }
 
+// cppcheck-suppress passedByValue ; chunks are joined in it
 std::optional<PackedImage> read_packed_png(Bytes file) {
   std::optional<PackedFile> packed = inflated(file);
   if (!packed || !unfilter(packed->image, packed->rows.get())) return std::nullopt;
@@ -350,6 +351,7 @@ std::optional<PackedImage> read_packed_png(Bytes file) {
   return std::move(packed->image);
 }
 
+// cppcheck-suppress passedByValue ; chunks are joined in it
 bool is_whole_png(Bytes file) {
   std::optional<PackedFile> packed = inflated(file);
   if (!packed) return false;
