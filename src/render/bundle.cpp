@@ -23,22 +23,26 @@ namespace fs = std::filesystem;
 constexpr const char* kPoster = "poster.png";
 constexpr const char* kAltText = "alt.txt";
 constexpr const char* kCaptions = "captions.vtt";
+constexpr const char* kSubtitles = "captions.srt";
 constexpr const char* kLatexFile = "latex.tex";
 constexpr const char* kRevealFile = "reveal.html";
 
-/// Shown wherever the viewer plays no videos: the poster.
+/// As large as fits below a title, at any shape of slide and film. Without a width of its own,
+/// \movie is as large as the poster.
 constexpr std::string_view kLatex =
     R"(% In the preamble: \usepackage{{graphicx}} \usepackage{{multimedia}}
 % A viewer that plays no videos shows the poster.
-\movie[width=0.9\textwidth,height={height}\textwidth,showcontrols]{{%
-  \includegraphics[width=0.9\textwidth]{{poster.png}}}}{{{name}}}
+\centering
+\movie[showcontrols]{{%
+  \includegraphics[width=\textwidth,height=0.8\textheight,keepaspectratio]{{poster.png}}}}{{{name}}}
 )";
 
+/// reveal.js sizes the video by r-stretch, and plays it when the slide is shown.
 constexpr std::string_view kReveal = R"(<section>
-  <video controls preload="metadata" poster="poster.png" width="{width}" height="{height}"
+  <video class="r-stretch" data-autoplay controls {loop}playsinline preload="metadata" poster="poster.png"
          aria-label="{alt}">
     <source src="{name}" type="video/mp4">
-    <track kind="captions" src="captions.vtt" srclang="en" label="English">
+    <track kind="captions" srclang="en" label="English" src="{captions}">
   </video>
 </section>
 )";
@@ -99,16 +103,15 @@ void write_poster(const RenderJob& job, const Film& film, FileSet& files,
 }
 
 void write_texts(const RenderJob& job, const Film& film, FileSet& files) {
-  const View& view = film.view();
   const std::string alt = describe_film(film);
   add(files, kAltText, alt + "\n");
   add(files, kCaptions, captions(film));
-  add(files, kLatexFile,
-      fmt::format(kLatex, fmt::arg("name", job.output),
-                  fmt::arg("height", fmt::format("{:.4f}", 0.9 * view.height_px / view.width_px))));
+  add(files, kSubtitles, captions(film, CaptionFormat::subrip));
+  add(files, kLatexFile, fmt::format(kLatex, fmt::arg("name", job.output)));
   add(files, kRevealFile,
       fmt::format(kReveal, fmt::arg("name", job.output), fmt::arg("alt", escaped(alt)),
-                  fmt::arg("width", view.width_px), fmt::arg("height", view.height_px)));
+                  fmt::arg("loop", loop_attribute(film)),
+                  fmt::arg("captions", captions_address(film))));
 }
 
 /// Whether the folder has the bundle of an earlier run.
@@ -122,7 +125,7 @@ bool has_bundle(const fs::path& folder) {
 void check_names(const Bundle& bundle) {
   if (has_bundle(bundle.folder)) return;
   std::error_code unknown;
-  for (const char* name : {kPoster, kAltText, kCaptions, kLatexFile, kRevealFile}) {
+  for (const char* name : {kPoster, kAltText, kCaptions, kSubtitles, kLatexFile, kRevealFile}) {
     const fs::path path = fs::path(bundle.folder) / name;
     if (!fs::exists(path, unknown)) continue;
     throw UsageError(fmt::format(
@@ -135,7 +138,7 @@ void check_names(const Bundle& bundle) {
 }  // namespace
 
 std::vector<std::string> bundle_files(const RenderJob& job) {
-  return {job.output, kPoster, kAltText, kCaptions, kLatexFile, kRevealFile};
+  return {job.output, kPoster, kAltText, kCaptions, kSubtitles, kLatexFile, kRevealFile};
 }
 
 Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,

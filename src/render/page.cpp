@@ -40,7 +40,7 @@ constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <video id="video" width="{width}" height="{height}" data-rate="{rate}" data-frames="{frames}" controls {loop}playsinline preload="auto" aria-label="{title}" aria-describedby="description" src="data:video/mp4;base64,)";
 
 constexpr std::string_view kFoot = R"(">
-<track kind="captions" srclang="en" label="English" src="data:text/vtt;base64,{captions}">
+<track kind="captions" srclang="en" label="English" src="{captions}">
 </video>
 <p id="problem" role="alert"></p>
 <div id="steps" role="group" aria-label="Frames" hidden>
@@ -82,22 +82,17 @@ void add_video(const fs::path& path, OutputFile& page) {
   throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(errno)));
 }
 
-std::string base64_text(std::string_view text) {
-  return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
 void write_page(const Film& film, const fs::path& video, OutputFile& page) {
   const View& view = film.view();
   const Rational& rate = view.frame_rate;
-  const bool is_loop = film.scene() != nullptr && film.scene()->runs().front().scene().pacing.loop;
   page.write(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
       fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(film))),
       fmt::arg("width", view.width_px), fmt::arg("height", view.height_px),
       fmt::arg("rate", rate.get_num().get_str() + "/" + rate.get_den().get_str()),
-      fmt::arg("frames", film.frame_count()), fmt::arg("loop", is_loop ? "loop " : "")));
+      fmt::arg("frames", film.frame_count()), fmt::arg("loop", loop_attribute(film))));
   add_video(video, page);
-  page.write(fmt::format(kFoot, fmt::arg("captions", base64_text(captions(film))),
+  page.write(fmt::format(kFoot, fmt::arg("captions", captions_address(film)),
                          fmt::arg("description", escaped(describe_film(film))),
                          fmt::arg("script", kPageScript)));
 }

@@ -364,10 +364,11 @@ std::string escaped_lines(std::string_view text) {
   return escaped(text.substr(0, end)) + "\n" + escaped_lines(text.substr(end + 1));
 }
 
-std::string time_text(std::int64_t frame, const Rational& frame_rate) {
+/// @param point  between seconds and milliseconds
+std::string time_text(std::int64_t frame, const Rational& frame_rate, char point) {
   const std::int64_t ms = ceil(Rational(to_integer(frame)) * 1000 / frame_rate).get_si();
-  return fmt::format("{:02}:{:02}:{:02}.{:03}", ms / 3'600'000, ms / 60'000 % 60, ms / 1000 % 60,
-                     ms % 1000);
+  return fmt::format("{:02}:{:02}:{:02}{}{:03}", ms / 3'600'000, ms / 60'000 % 60, ms / 1000 % 60,
+                     point, ms % 1000);
 }
 
 }  // namespace
@@ -402,7 +403,7 @@ std::string describe_film(const Film& film) {
   return text;
 }
 
-std::string captions(const Film& film) {
+std::string captions(const Film& film, CaptionFormat format) {
   const Rational& frame_rate = film.view().frame_rate;
   Cues cues;
   for (const Part& part : parts_of(film)) {
@@ -412,14 +413,32 @@ std::string captions(const Film& film) {
       }
     }
   }
-  std::string vtt = "WEBVTT\n";
+  const bool is_vtt = format == CaptionFormat::webvtt;
+  std::string text = is_vtt ? "WEBVTT\n\n" : "";
+  int number = 0;
   for (auto cue = cues.begin(); cue != cues.end(); ++cue) {
     const auto next = std::next(cue);
-    vtt += fmt::format("\n{} --> {}\n{}\n", time_text(cue->first, frame_rate),
-                       time_text(next != cues.end() ? next->first : film.frame_count(), frame_rate),
-                       escaped_lines(cue->second));
+    const auto time = [&](std::int64_t frame) {
+      return time_text(frame, frame_rate, is_vtt ? '.' : ',');
+    };
+    if (number > 0) text += '\n';
+    if (++number; !is_vtt) text += fmt::format("{}\n", number);
+    text += fmt::format("{} --> {}\n{}\n", time(cue->first),
+                        time(next != cues.end() ? next->first : film.frame_count()),
+                        is_vtt ? escaped_lines(cue->second) : cue->second);
   }
-  return vtt;
+  return text;
+}
+
+std::string captions_address(const Film& film) {
+  const std::string text = captions(film);
+  return "data:text/vtt;base64," +
+         base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+const char* loop_attribute(const Film& film) {
+  const bool is_loop = film.scene() != nullptr && film.scene()->runs().front().scene().pacing.loop;
+  return is_loop ? "loop " : "";
 }
 
 }  // namespace piblocks

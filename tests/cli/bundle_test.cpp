@@ -10,8 +10,8 @@ namespace {
 using BundleTest = CliFixture;
 
 const Arguments kRender{"render", "--quiet", "--size", "64x36", "--fps", "30", "-o", "pi.mp4"};
-const Names kFiles{"talk",        "talk/alt.txt",    "talk/captions.vtt", "talk/latex.tex",
-                   "talk/pi.mp4", "talk/poster.png", "talk/reveal.html"};
+const Names kFiles{"talk",           "talk/alt.txt", "talk/captions.srt", "talk/captions.vtt",
+                   "talk/latex.tex", "talk/pi.mp4",  "talk/poster.png",   "talk/reveal.html"};
 
 struct Cue {
   double begin_s;

@@ -56,7 +56,7 @@ struct PackedFile {
   bool has_data = false;
   bool has_palette = false;
   bool has_transparency = false;
-  std::shared_ptr<std::uint8_t[]> rows;
+  std::shared_ptr<std::uint8_t> rows;
 };
 
 bool take_header(ByteSpan data, PackedImage& image) {
@@ -151,7 +151,7 @@ constexpr std::size_t kSlack = 3;
 /// Deflate expands a byte to at most 1032 (RFC 1951): a small file cannot ask for much memory.
 constexpr std::size_t kMostInflation = 1032;
 
-std::shared_ptr<std::uint8_t[]> inflate(ByteSpan zlib, std::size_t bytes) {
+std::shared_ptr<std::uint8_t> inflate(ByteSpan zlib, std::size_t bytes) {
   if (zlib.size() < 2 || bytes / kMostInflation > zlib.size() || !has_full_window(zlib, bytes)) {
     return {};
   }
@@ -159,7 +159,9 @@ std::shared_ptr<std::uint8_t[]> inflate(ByteSpan zlib, std::size_t bytes) {
       std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>;
   const Decompressor decompressor(libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
   if (!decompressor) return {};
-  auto rows = std::make_shared_for_overwrite<std::uint8_t[]>(bytes + kSlack);
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): not filled twice
+  const auto array = std::make_shared_for_overwrite<std::uint8_t[]>(bytes + kSlack);
+  std::shared_ptr<std::uint8_t> rows(array, array.get());
   prefer_large_pages(rows.get(), bytes);
   std::size_t consumed = 0;
   const auto result = libdeflate_zlib_decompress_ex(decompressor.get(), zlib.data(), zlib.size(),

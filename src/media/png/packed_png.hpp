@@ -30,7 +30,7 @@ struct PackedImage {
   int height_px = 0;
   Packing packing = Packing::rgba;
   std::vector<std::uint32_t> palette = {};  ///< words 0xAARRGGBB, one for every index that occurs
-  std::shared_ptr<const std::uint8_t[]> bytes = {};  ///< rows, each behind one byte of no meaning
+  std::shared_ptr<const std::uint8_t> bytes = {};  ///< rows, each behind one byte of no meaning
 
   std::size_t pixel_bytes() const noexcept;
   std::size_t row_bytes() const noexcept { return pixel_bytes() * std::size_t(width_px); }
