@@ -23,7 +23,7 @@ std::int64_t parse_pixels(const std::string& text) {
 
 /// "0.1%", of the pixels of a frame.
 Rational parse_share(const std::string& text) {
-  const Rational share = parse_rational(text.substr(0, text.size() - 1)) / 100;
+  Rational share = parse_rational(text.substr(0, text.size() - 1)) / 100;
   if (share < 0 || share > 1) throw UsageError("must be a number of pixels, or from 0% to 100%");
   return share;
 }

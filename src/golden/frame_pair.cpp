@@ -234,7 +234,7 @@ std::vector<PixelRect> masks_of(const ComparisonJob& job, const Fetched& referen
   return rects;
 }
 
-void compare_samples(Fetched reference, Fetched actual, const ComparisonJob& job,
+void compare_samples(const Fetched& reference, const Fetched& actual, const ComparisonJob& job,
                      ComparedPair& result) {
   const bool as_rgb = job.tolerance.threshold.has_value();
   const auto pair = std::make_shared<SamplePair>(reference, actual, as_rgb);
@@ -300,7 +300,7 @@ ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJ
   if (actual.is_read()) row.actual_path = actual.path;
   if (reference.is_read() && actual.is_read()) {
     try {
-      compare_samples(std::move(reference), std::move(actual), job, result);
+      compare_samples(reference, actual, job, result);
     } catch (const MediaError& error) {
       add_unreadable(row, error.what());
     }

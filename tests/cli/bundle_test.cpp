@@ -1,6 +1,7 @@
 // render --bundle DIR: a video and what a lecture needs beside it, all or nothing.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "cli/cli_fixture.hpp"
 
@@ -147,13 +148,39 @@ TEST_F(BundleTest, CaptionsOfALoopGoBack) {
 TEST_F(BundleTest, SnippetsNameTheFiles) {
   output_of(kRender + Arguments{"--bundle", "talk"});
   const std::string latex = contents("talk/latex.tex");
-  EXPECT_TRUE(contains(latex, "\\includegraphics[width=0.9\\textwidth]{poster.png}}{pi.mp4}"));
+  EXPECT_TRUE(contains(latex, "keepaspectratio]{poster.png}}{pi.mp4}"));
   EXPECT_EQ(std::ranges::count(latex, '{'), std::ranges::count(latex, '}'));
   const std::string reveal = contents("talk/reveal.html");
-  for (const char* piece : {"poster=\"poster.png\"", "src=\"pi.mp4\"", "src=\"captions.vtt\"",
-                            "aria-label=\"Two blocks", "width=\"64\""}) {
+  for (const char* piece : {"poster=\"poster.png\"", "src=\"pi.mp4\"", "r-stretch",
+                            "src=\"data:text/vtt;base64,V0VCVlRU", "aria-label=\"Two blocks"}) {
     EXPECT_TRUE(contains(reveal, piece));
   }
+}
+
+/// SubRip has numbers, and a comma before the milliseconds.
+TEST_F(BundleTest, SubtitlesAreTheCaptions) {
+  Arguments render = kRender;
+  render.at(3) = "320x180";
+  output_of(render + Arguments{"--title", "Left & right <", "--bundle", "talk"});
+  std::string expected;
+  int number = 0;
+  for (std::string line : lines(contents("talk/captions.vtt"))) {
+    if (line == "WEBVTT") continue;
+    if (line.empty()) {
+      if (number++ > 0) expected += '\n';
+      expected += std::to_string(number) + "\n";
+      continue;
+    }
+    if (contains(line, " --> ")) line[8] = line[25] = ',';
+    for (const auto& [mark, letter] : {std::pair{"&amp;", "&"}, {"&lt;", "<"}}) {
+      if (const auto at = line.find(mark); at != line.npos)
+        line.replace(at, std::strlen(mark), letter);
+    }
+    expected += line + "\n";
+  }
+  EXPECT_GT(number, 2);
+  EXPECT_TRUE(contains(expected, "Left & right <"));
+  EXPECT_EQ(contents("talk/captions.srt"), expected);
 }
 
 TEST_F(BundleTest, LeavesOtherFilesAlone) {

@@ -97,7 +97,7 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
   for (const auto& [name, codec] : {std::pair{"a.mp4", "aac"},
                                     {"a.mov", "aac"},
                                     {"a.webm", "opus"},
-                                    {"clear.mov", "aac"},
+                                    {"clear.mov", "pcm_s24le"},
                                     {"clear.webm", "opus"}}) {
     Arguments render{"render", "--sound", "--digits", "2", "-o", name};
     if (std::string(name).starts_with("clear")) render.emplace_back("--transparent");
@@ -109,6 +109,17 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
     SCOPED_TRACE(name);
     expect_in_place(sound, decoded, 2);
   }
+}
+
+TEST_F(SoundTest, OfProresIsThatOfWav) {
+  output_of(Arguments{"render", "--digits", "2", "-o", "a.wav"} + kSmallSound);
+  output_of(Arguments{"render", "--sound", "--digits", "2", "--transparent", "-o", "a.mov"} +
+            kSmallSound);
+  for (const std::string name : {"a.wav", "a.mov"}) {
+    shell("ffmpeg -v error -i " + name + " -vn -f s24le " + name + ".raw");
+  }
+  EXPECT_GT(contents("a.wav.raw").size(), 6U * 48000);
+  EXPECT_TRUE(contents("a.wav.raw") == contents("a.mov.raw"));
 }
 
 TEST_F(SoundTest, BeginsWithTheVideoAndLastsAsLong) {

@@ -24,6 +24,8 @@ struct SoundCodec {
 /// times.
 inline constexpr SoundCodec kAac = {
     .name = "aac", .quality = 2.5, .option = "aac_coder", .value = "fast"};
+/// For MOV of ProRes: editors on Linux play no AAC.
+inline constexpr SoundCodec kPcm = {.name = "pcm_s24le"};
 /// For WebM.
 inline constexpr SoundCodec kOpus = {.name = "libopus", .bit_rate = 160'000};
 

@@ -239,6 +239,11 @@ const Container kMov = [] {
   mov.encoders.push_back(EncoderKind::prores);
   return mov;
 }();
+const Container kEditorMov = [] {
+  Container mov = kMov;
+  mov.sound = kPcm;
+  return mov;
+}();
 const Container kWebm = {.muxer = "webm",
                          .index_option = "cues_to_front",
                          .index_value = "1",

@@ -32,6 +32,8 @@ struct Container {
 
 extern const Container kMp4;
 extern const Container kMov;
+/// For ProRes.
+extern const Container kEditorMov;
 extern const Container kWebm;
 
 /// @param pictures  must outlive the sink.

@@ -114,7 +114,7 @@ Output mov_output(const OutputRequest& request) {
     return h264_output(request, kMov);
   }
   check_duration_of_frame(request.format.frame_rate);
-  return encoded_output(request, kMov, prores_setup(request.format, request.settings));
+  return encoded_output(request, kEditorMov, prores_setup(request.format, request.settings));
 }
 
 Output webm_output(const OutputRequest& request) {

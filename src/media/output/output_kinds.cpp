@@ -105,7 +105,7 @@ class PcmPackets final : public PacketSource {
 
   std::optional<Packet> next() override {
     constexpr double kFullScale = (1 << (8 * kSample_bytes - 1)) - 1;
-    std::array<float, 8192> block{};
+    std::array<float, std::size_t{kChannels} * kPcmPacket_pairs> block{};
     const std::size_t count = samples_.read(block) * kChannels;
     if (count == 0) return std::nullopt;
     Packet packet{.bytes = {}, .pts = next_, .dts = next_};
@@ -204,6 +204,10 @@ void StreamSink::finish() {
   file_.finish();
 }
 
+std::unique_ptr<PacketSource> pcm_packets(SampleSource& samples) {
+  return std::make_unique<PcmPackets>(samples);
+}
+
 Output null_output(const OutputRequest& request) {
   return {
       .frames_per_chunk = 64,
@@ -231,15 +235,14 @@ Output wav_output(const OutputRequest& request) {
         "output: '{}' cannot be that long: WAV ends at 4 GiB, which is {} s; write *.mp4 --sound",
         request.name, (kMaxFile_bytes - kHeader_bytes) / kPair_bytes / sound.rate_hz));
   }
-  return {
-      .signature = "wav",
-      .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
-        throw MediaError("output: cannot encode frames as sound");
-      },
-      .open = [name = request.name,
-               sound](std::int64_t /*frames*/) { return std::make_unique<WavSink>(name, sound); },
-      .encode_sound = [](SampleSource& samples) { return std::make_unique<PcmPackets>(samples); },
-      .has_frames = false};
+  return {.signature = "wav",
+          .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
+            throw MediaError("output: cannot encode frames as sound");
+          },
+          .open = [name = request.name, sound](
+                      std::int64_t /*frames*/) { return std::make_unique<WavSink>(name, sound); },
+          .encode_sound = [](SampleSource& samples) { return pcm_packets(samples); },
+          .has_frames = false};
 }
 
 }  // namespace piblocks

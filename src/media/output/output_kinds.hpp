@@ -125,6 +125,12 @@ inline constexpr std::string_view kY4mMatrixTag = "XCOLORMATRIX=BT709";
 /// As FFmpeg's framehash muxer writes rawvideo rgb24 or, with alpha, rgba, less its #software line.
 Output framehash_output(const OutputRequest& request);
 Output wav_output(const OutputRequest& request);
+
+/// Pairs of samples in a packet of pcm_packets(); the last may have fewer.
+inline constexpr int kPcmPacket_pairs = 4096;
+/// Samples of 24 bits, little-endian, left and right in turn: those of a WAV file.
+/// @param samples  must outlive the packets.
+std::unique_ptr<PacketSource> pcm_packets(SampleSource& samples);
 /// Takes frames and keeps nothing: what rendering costs without an output.
 Output null_output(const OutputRequest& request);
 
