@@ -14,6 +14,14 @@
 namespace piblocks::cli {
 namespace {
 
+/// 29.97 is taken for 30000/1001.
+void note_frame_rate(const Command& options, const Rational& rate) {
+  const auto given = options.text("--fps");
+  if (!given || parse_rational(*given) == rate) return;
+  say("piblocks: note: --fps {} is {}, as in broadcasting; for another rate write a fraction\n",
+      *given, rate.get_str());
+}
+
 void run_render(const Command& options, const SceneOptions& scene) {
   refuse_terminal(options);
   const RenderJob job = job_of(
@@ -32,6 +40,7 @@ void run_render(const Command& options, const SceneOptions& scene) {
   if (job.profile) print_profile(rendered);
   if (quiet) return;
   for (const std::string& note : rendered.notes) say("piblocks: note: {}\n", note);
+  note_frame_rate(options, view_of(job.script).frame_rate);
   note_convention(job.script);
   note_contrast(job.script);
   if (report.is_seen() && !scene.has_scene())

@@ -87,7 +87,7 @@ std::string compare_sides(FrameSide& reference, FrameSide& actual, const Compari
     };
     const bool ends = is_broken(reference, expected) || is_broken(actual, found);
     if (expected.is_there || found.is_there) {
-      ComparedPair pair = compare_frames(std::move(expected), std::move(found), job);
+      ComparedPair pair = compare_frames(expected, found, job);
       shift.add(first.second ? *a : *b, pair.row);
       taker.take(std::move(pair));
     }
@@ -209,11 +209,11 @@ void compare_frames_of(const ComparisonJob& job, Rows& rows, const std::stop_tok
 
 }  // namespace
 
-ComparisonResult compare_pair(Fetched reference, Fetched actual, const ComparisonJob& job,
-                              const OnFrame& on_frame) {
+ComparisonResult compare_pair(const Fetched& reference, const Fetched& actual,
+                              const ComparisonJob& job, const OnFrame& on_frame) {
   Rows rows(on_frame);
   PairTaker taker(job, rows);
-  taker.take(compare_frames(std::move(reference), std::move(actual), job));
+  taker.take(compare_frames(reference, actual, job));
   taker.finish();
   return rows.finish(job);
 }

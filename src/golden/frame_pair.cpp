@@ -282,12 +282,13 @@ ComparedPair compare_pictures(const ListedPicture& reference, const ListedPictur
     const bool may_be_equal = job.masks.empty() && a.second == b.second;
     if (may_be_equal && is_whole_png(std::move(b.second))) return equal_pair(reference, actual);
   }
-  auto [expected, found] = on_two_threads(
+  const auto [expected, found] = on_two_threads(
       in_threads, a, b, [](Side& side) { return decoded(*side.first, std::move(side.second)); });
-  return compare_frames(std::move(expected), std::move(found), job);
+  return compare_frames(expected, found, job);
 }
 
-ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJob& job) {
+ComparedPair compare_frames(const Fetched& reference, const Fetched& actual,
+                            const ComparisonJob& job) {
   ComparedPair result{
       .row = {}, .has_reference = reference.is_there, .has_actual = actual.is_there};
   for (std::size_t i = 0; i < job.masks.size(); ++i) {

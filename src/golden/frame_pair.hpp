@@ -48,7 +48,8 @@ struct ComparedPair {
 };
 
 /// @throws UsageError as compare()
-ComparedPair compare_frames(Fetched reference, Fetched actual, const ComparisonJob& job);
+ComparedPair compare_frames(const Fetched& reference, const Fetched& actual,
+                            const ComparisonJob& job);
 
 /// Reads and compares two files. Of files with the same bytes only one is inflated.
 /// @param in_threads  whether two threads read them
@@ -58,7 +59,8 @@ ComparedPair compare_pictures(const ListedPicture& reference, const ListedPictur
 
 /// The comparison of this pair alone, as compare_files() makes it.
 /// @throws UsageError as compare_files()
-ComparisonResult compare_pair(Fetched reference, Fetched actual, const ComparisonJob& job,
+ComparisonResult compare_pair(const Fetched& reference, const Fetched& actual,
+                              const ComparisonJob& job,
                               const std::function<void(const FrameComparison&)>& on_frame);
 
 }  // namespace piblocks

@@ -32,11 +32,11 @@ FrameShift::Impression FrameShift::impression_of(const Image& image) {
     const std::uint32_t* const row = image.words.data() + std::ptrdiff_t{y} * image.width_px;
     const int first = y * kDown / image.height_px * kAcross;
     for (int x = 0; x < image.width_px; x += step) {
-      const int part = first + x * kAcross / image.width_px;
-      for (int c = 0; c < 3; ++c) {
-        sums.at(std::size_t(3 * part + c)) += float((row[x] >> (8 * c)) & 0xff);
+      const auto part = static_cast<unsigned>(first + x * kAcross / image.width_px);
+      for (unsigned c = 0; c < 3; ++c) {
+        sums.at(3 * part + c) += float((row[x] >> (8 * c)) & 0xff);
       }
-      ++counts.at(std::size_t(part));
+      ++counts.at(part);
     }
   }
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= std::max(1.0F, counts[i / 3]);

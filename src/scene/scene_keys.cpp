@@ -203,6 +203,22 @@ Values slow_motion_of(const Scene& scene) {
   return texts;
 }
 
+/// Rates of broadcasting by their decimals, in which people write them: 29.97 is 30000/1001, and
+/// 23.976 and 23.98 are 24000/1001 (SMPTE ST 2036-1).
+Rational parse_frame_rate(std::string_view text) {
+  const Rational rate = parse_rational(text);
+  const Integer whole = ceil(rate);
+  const bool is_exact = rate == whole || text.find('/') != std::string_view::npos;
+  if (is_exact || (whole % 24 != 0 && whole % 30 != 0)) return rate;
+  const Rational of_broadcasting = Rational(whole) * 1000 / 1001;
+  return abs(rate - of_broadcasting) < Rational(1, 200) ? of_broadcasting : rate;
+}
+
+void set_frame_rate(Scene& scene, const Values& values) {
+  scene.view.frame_rate = parse_frame_rate(single(values));
+}
+Values frame_rate_of(const Scene& scene) { return texts_of(scene.view.frame_rate); }
+
 void set_base(Scene& scene, const Values& values) {
   scene.show.base = parse_int(single(values), kMinBase, kMaxBase);
 }
@@ -226,7 +242,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     key<&Scene::view, &View::x>("view.x"),
     key<&Scene::view, &View::y>("view.y"),
     SceneKey{"view.size", set_size, size_of},
-    key<&Scene::view, &View::frame_rate>("view.fps"),
+    SceneKey{"view.fps", set_frame_rate, frame_rate_of},
     key<&Scene::view, &View::shutter>("view.shutter"),
     SceneKey{"view.background", set_background, background_of},
     key<&Scene::view, &View::theme>("view.theme"),

@@ -226,6 +226,27 @@ TEST_F(SceneFileTest, DecimalsAreReadAsTheyStand) {
   EXPECT_EQ(count_collisions(scene.system), 4);
 }
 
+/// Decimals of k/1001, cut off or rounded, stand for it; fractions and other decimals for
+/// themselves.
+TEST_F(SceneFileTest, RatesOfBroadcastingHaveDecimals) {
+  for (const auto& [text, rate] : {std::pair("29.97", Rational(30000, 1001)),
+                                   {"29.970", Rational(30000, 1001)},
+                                   {"23.976", Rational(24000, 1001)},
+                                   {"23.98", Rational(24000, 1001)},
+                                   {"59.94", Rational(60000, 1001)},
+                                   {"119.88", Rational(120000, 1001)},
+                                   {"'2997/100'", Rational(2997, 100)},
+                                   {"29.98", Rational(2998, 100)},
+                                   {"29.96", Rational(2996, 100)},
+                                   {"24.975", Rational(24975, 1000)},
+                                   {"30", Rational(30)},
+                                   {"0.5", Rational(1, 2)}}) {
+    Rational expected = rate;
+    expected.canonicalize();
+    EXPECT_EQ(load(std::string("[view]\nfps = ") + text).view.frame_rate, expected) << text;
+  }
+}
+
 /// As editors of other systems write it.
 TEST_F(SceneFileTest, LineEndsAndEncodingMayBeOfAnotherSystem) {
   const char* const text = "[red]\r\nmass = 1.00000000000000000000000000000001\r\n# x\r\n";
