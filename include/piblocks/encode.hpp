@@ -18,7 +18,11 @@ struct EncoderSettings {
   std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
   /// One of encoder_names(). "builtin" is our own, the one that encodes only what changes.
   std::optional<std::string> encoder = {};
+  std::optional<int> plays =
+      {};  ///< of GIF and APNG: how often they play, 1 … 65535; else for ever
 };
+
+inline constexpr int kMaxPlays = 65535;
 
 /// What an encoder is for: MP4 and MOV, WebM, MOV with alpha, or sound.
 enum class EncoderKind : std::uint8_t { h264, webm, prores, sound };

@@ -38,11 +38,15 @@ double parse_crf(const std::string& text) { return to_double(parse_rational(text
 /// Under half the size, and many times the time (tests/benchmark/encoders.md).
 EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
 
+int parse_plays(const std::string& text) { return parse_int(text, 1, kMaxPlays); }
+
 EncoderSettings settings_of(const OptionTexts& options) {
+  const std::optional<int> plays = options.value("--plays", parse_plays);
   if (!options.is_given("--smallest")) {
     return {.crf = options.value("--crf", parse_crf),
             .preset = options.text("--preset"),
-            .encoder = options.text("--encoder")};
+            .encoder = options.text("--encoder"),
+            .plays = plays};
   }
   for (const char* option : {"--crf", "--preset", "--encoder"}) {
     if (!options.is_given(option)) continue;

@@ -206,7 +206,7 @@ Values slow_motion_of(const Scene& scene) {
 /// Rates of broadcasting by their decimals, in which people write them: 29.97 is 30000/1001, and
 /// 23.976 and 23.98 are 24000/1001 (SMPTE ST 2036-1).
 Rational parse_frame_rate(std::string_view text) {
-  const Rational rate = parse_rational(text);
+  Rational rate = parse_rational(text);
   const Integer whole = ceil(rate);
   const bool is_exact = rate == whole || text.find('/') != std::string_view::npos;
   if (is_exact || (whole % 24 != 0 && whole % 30 != 0)) return rate;

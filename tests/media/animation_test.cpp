@@ -52,15 +52,24 @@ TEST_P(Animation, AFrameMayBeTheSameAsTheOneBefore) {
   expect_frames(folder / GetParam(), 120, paint);
 }
 
-TEST_P(Animation, GoesOnForEver) {
+/// A GIF that plays once does not speak of it; else the number is that of repetitions.
+TEST_P(Animation, PlaysForEverOrAsOftenAsItIsTold) {
+  const bool is_gif = std::string(GetParam()) == "a.gif";
   const TemporaryFolder folder;
   const VideoFormat format = {.width_px = 40, .height_px = 30, .frame_rate = 10};
-  write_frames(folder / GetParam(), format, {}, 3, article_frames(format));
-  const std::string bytes = file_contents(folder / GetParam());
-  const std::string loop = std::string(GetParam()) == "a.gif"
-                               ? std::string("NETSCAPE2.0\x03\x01\0\0\0", 16)
-                               : std::string("acTL\0\0\0\x03\0\0\0\0", 12);
-  EXPECT_NE(bytes.find(loop), std::string::npos);
+  for (const std::optional<int> plays : {std::optional<int>(), {1}, {2}, {300}, {kMaxPlays}}) {
+    write_frames(folder / GetParam(), format, {.plays = plays}, 3, article_frames(format));
+    const std::string bytes = file_contents(folder / GetParam());
+    const std::string mark = is_gif ? "NETSCAPE2.0\x03\x01" : std::string("acTL\0\0\0\x03", 8);
+    const std::size_t at = bytes.find(mark);
+    EXPECT_EQ(at == std::string::npos, is_gif && plays == 1);
+    if (at == std::string::npos) continue;
+    const auto byte = [&](std::size_t i) {
+      return int{static_cast<unsigned char>(bytes.at(at + mark.size() + i))};
+    };
+    const int number = is_gif ? byte(0) + 256 * byte(1) : 256 * byte(2) + byte(3);
+    EXPECT_EQ(number, plays ? *plays - (is_gif ? 1 : 0) : 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Animation, testing::Values("a.gif", "a.apng"));

@@ -22,6 +22,7 @@ FILM = [*SMALL, "--fps", "10", "--to", "4"]
         ("a.mp4", []),
         ("a.mp4", ["--sound"]),
         ("a.mp4", ["--encoder", "libx264", "--crf", "30", "--preset", "veryfast"]),
+        ("a.gif", ["--plays", "3"]),
         ("a.mp4", ["--part", "2/2", "--jobs", "1"]),
         ("a.mov", []),
         ("a.webm", []),

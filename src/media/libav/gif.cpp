@@ -55,14 +55,15 @@ int append_to_bytes(GifFileType* file, const GifByteType* data, int count) {
 
 class GifEncoder final : public PacketPerFrameEncoder {
  public:
-  explicit GifEncoder(const VideoFormat& format)
+  /// @param plays  0 for ever
+  GifEncoder(const VideoFormat& format, int plays)
       : PacketPerFrameEncoder(format),
         frame_rate_(format.frame_rate),
         picture_(format.width_px, format.height_px),
         file_(EGifOpen(&bytes_, append_to_bytes, nullptr),
               [](GifFileType* file) { EGifCloseFile(file, nullptr); }) {
     if (!file_) throw std::bad_alloc();
-    put_header(format);
+    put_header(format, plays);
     header_ = std::exchange(bytes_, {});
   }
 
@@ -81,18 +82,22 @@ class GifEncoder final : public PacketPerFrameEncoder {
     if (number == 0) bytes_.insert(bytes_.begin(), header_.begin(), header_.end());
     return std::exchange(bytes_, {});
   }
-  /// The screen, and Netscape's extension, which every viewer knows: repeat for ever.
-  void put_header(const VideoFormat& format) {
+  /// The screen, and Netscape's extension, which every viewer knows: how often to repeat, 0 for
+  /// ever. Without it a GIF plays once.
+  void put_header(const VideoFormat& format, int plays) {
     constexpr int kColorResolution_bits = 8;
-    constexpr std::array<std::uint8_t, 3> kForEver = {1, 0, 0};
+    const int repeats = std::max(0, plays - 1);
+    const std::array<std::uint8_t, 3> repetition = {1, std::uint8_t(repeats & 0xff),
+                                                    std::uint8_t(repeats >> 8)};
     const auto check = [](int code) { check_gif(code, "write the header"); };
     GifFileType* const file = file_.get();
     EGifSetGifVersion(file, true);
     check(EGifPutScreenDesc(file, format.width_px, format.height_px, kColorResolution_bits, 0,
                             nullptr));
+    if (plays == 1) return;
     check(EGifPutExtensionLeader(file, APPLICATION_EXT_FUNC_CODE));
     check(EGifPutExtensionBlock(file, 11, "NETSCAPE2.0"));
-    check(EGifPutExtensionBlock(file, kForEver.size(), kForEver.data()));
+    check(EGifPutExtensionBlock(file, repetition.size(), repetition.data()));
     check(EGifPutExtensionTrailer(file));
   }
   /// Chooses colours for the pixels to be written. @return whether other pixels are left out.
@@ -169,9 +174,11 @@ Output gif_output(const OutputRequest& request) {
   constexpr std::int64_t kFramesPerChunk = 50;  // the first of them whole
   const std::string problem = frame_rate_problem(request.format.frame_rate);
   if (!problem.empty()) throw UsageError(problem);
+  const int plays = request.settings.plays.value_or(0);
   return stream_output<GifEncoder>(
-      request, kFramesPerChunk, "gif by " + giflib_version(),
-      [](OutputFile& file, std::int64_t /*frames*/) { file.write(";"); });  // the trailer, 0x3b
+      request, kFramesPerChunk, fmt::format("gif by {}, plays {}", giflib_version(), plays),
+      [](OutputFile& file, std::int64_t /*frames*/) { file.write(";"); },  // the trailer, 0x3b
+      plays);
 }
 
 }  // namespace piblocks

@@ -29,6 +29,7 @@ constexpr unsigned kSettings = 1;  // of an encoder
 constexpr unsigned kAlpha = 2;
 constexpr unsigned kSound = 4;
 constexpr unsigned kPictures = 8;  // keeps them
+constexpr unsigned kPlays = 16;    // says how often it plays
 
 struct OutputKind {
   std::string_view ending;  ///< of its files' names, or the whole name if that has no dot
@@ -44,8 +45,8 @@ constexpr std::array kOutputKinds = {
     OutputKind{".mp4", mp4_output, kPictures | kSettings | kSound},
     OutputKind{".mov", by_module<&AvModule::mov_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
-    OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures},
-    OutputKind{".apng", apng_output, kPictures | kAlpha},
+    OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures | kPlays},
+    OutputKind{".apng", apng_output, kPictures | kAlpha | kPlays},
     OutputKind{".png", png_output, kPictures | kAlpha, " with a number field such as %06d"},
     OutputKind{".y4m", y4m_output, kPictures},
     OutputKind{"-", y4m_output, kPictures, " (y4m on standard output)"},
@@ -98,6 +99,11 @@ void check_kind(const OutputKind& kind, const OutputRequest& request, Problems& 
     problems.add(fmt::format(
         "output: '{}' has no use for crf, preset or encoder; leave them out or write one of: {}",
         request.name, names(kSettings)));
+  }
+  if (settings.plays && !kind.has(kPlays)) {
+    problems.add(fmt::format(
+        "output: '{}' does not say how often it plays; leave that out or write one of: {}",
+        request.name, names(kPlays)));
   }
   if (request.format.has_alpha && !kind.has(kAlpha)) {
     problems.add(fmt::format(

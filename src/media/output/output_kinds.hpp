@@ -96,14 +96,15 @@ class StreamSink final : public FrameSink {
   WriteTrailer write_trailer_;
 };
 
-/// An output whose Encoder is made from the format, into a StreamSink.
-template <typename Encoder>
+/// An output whose Encoder is made from the format and whatever follows, into a StreamSink.
+template <typename Encoder, typename... More>
 Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk,
                      const std::string& signature,
-                     const StreamSink::WriteTrailer& write_trailer = {}) {
+                     const StreamSink::WriteTrailer& write_trailer = {}, const More&... more) {
   return {.frames_per_chunk = frames_per_chunk,
           .signature = signature,
-          .make_encoder = [format = request.format] { return std::make_unique<Encoder>(format); },
+          .make_encoder = [format = request.format,
+                           more...] { return std::make_unique<Encoder>(format, more...); },
           .open =
               [name = request.name, write_trailer](std::int64_t /*frames*/) {
                 return std::make_unique<StreamSink>(name, write_trailer);

@@ -14,10 +14,11 @@ constexpr int kMaxTerm = 65535;
 /// Where acTL stands: behind the signature and IHDR.
 constexpr std::uint64_t kAnimationControl = 8 + 25;
 
-void append_animation_control(Bytes& bytes, std::int64_t frames) {
+/// @param plays  0 for ever
+void append_animation_control(Bytes& bytes, std::int64_t frames, int plays) {
   const std::size_t chunk = begin_png_chunk(bytes, "acTL");
   append_big_endian(bytes, std::uint64_t(frames), 4);
-  append_big_endian(bytes, 0, 4);  // repeated for ever
+  append_big_endian(bytes, std::uint64_t(plays), 4);
   end_png_chunk(bytes, chunk);
 }
 
@@ -40,7 +41,7 @@ class ApngEncoder final : public PacketPerFrameEncoder {
     if (number == 0) {
       append_png_header(bytes, format_.width_px, format_.height_px,
                         format_.has_alpha ? PngColors::rgba : PngColors::rgb);
-      append_animation_control(bytes, 0);  // write_trailer() knows how many frames there are
+      append_animation_control(bytes, 0, 0);  // write_trailer() writes the numbers
       append_png_srgb(bytes);
     }
     append_frame_control(bytes, number, rect);
@@ -78,12 +79,12 @@ class ApngEncoder final : public PacketPerFrameEncoder {
   Bytes rows_;  // filtered
 };
 
-void write_trailer(OutputFile& file, std::int64_t frames) {
+void write_trailer(OutputFile& file, std::int64_t frames, int plays) {
   Bytes end;
   append_png_chunk(end, "IEND");
   file.write(end);
   Bytes control;
-  append_animation_control(control, frames);
+  append_animation_control(control, frames, plays);
   file.write_at(kAnimationControl, control);
 }
 
@@ -98,8 +99,10 @@ Output apng_output(const OutputRequest& request) {
                     "such as 60 or 30000/1001",
                     rate.get_str(), kMaxTerm));
   }
-  return stream_output<ApngEncoder>(request, kFramesPerChunk,
-                                    fmt::format("apng by zlib {}", zlibVersion()), write_trailer);
+  const int plays = request.settings.plays.value_or(0);
+  return stream_output<ApngEncoder>(
+      request, kFramesPerChunk, fmt::format("apng by zlib {}, plays {}", zlibVersion(), plays),
+      [plays](OutputFile& file, std::int64_t frames) { write_trailer(file, frames, plays); });
 }
 
 }  // namespace piblocks

@@ -110,6 +110,14 @@ void take_data(std::span<std::uint8_t> data, PackedFile& file) {
   file.data = {file.data.data(), file.data.size() + data.size()};
 }
 
+/// Not those of animations and of turned pictures, and not those that have to be understood.
+bool may_be_skipped(std::string_view type) {
+  const auto is_letter = [](char c) { return ('a' <= (c | 0x20)) && ((c | 0x20) <= 'z'); };
+  const bool is_ancillary =
+      type.size() == 4 && std::ranges::all_of(type, is_letter) && (type[0] & 0x20) != 0;
+  return is_ancillary && type != "acTL" && type != "fcTL" && type != "eXIf";
+}
+
 /// @returns false if the file is not whole, or not of the kind that is read here.
 bool take_chunks(Chunks chunks, PackedFile& file) {
   Chunks::Chunk chunk = chunks.next();
@@ -127,14 +135,8 @@ bool take_chunks(Chunks chunks, PackedFile& file) {
       if (!take_palette(chunk.data, file)) return false;
     } else if (chunk.type == "tRNS") {
       if (!take_transparency(chunk.data, file)) return false;
-    } else {
-      // Animations, turned pictures, and chunks that have to be understood.
-      const auto is_letter = [](char c) { return ('a' <= (c | 0x20)) && ((c | 0x20) <= 'z'); };
-      const bool is_extra = chunk.type.size() == 4 && std::ranges::all_of(chunk.type, is_letter) &&
-                            (chunk.type[0] & 0x20) != 0;
-      if (!is_extra || chunk.type == "acTL" || chunk.type == "fcTL" || chunk.type == "eXIf") {
-        return false;
-      }
+    } else if (!may_be_skipped(chunk.type)) {
+      return false;
     }
   }
 }

@@ -346,6 +346,7 @@ class Scene:
         crf: Any = None,
         preset: str | None = None,
         encoder: str | None = None,
+        plays: int | None = None,
         smallest: bool = False,
         part: Any = None,
         bundle: Path | None = None,
@@ -364,6 +365,7 @@ class Scene:
         :param progress: True for a line on standard error; or called with the frames done and the
             frames in all. An exception in it stops the rendering, and is raised.
         :param jobs: threads (default: one a processor); changes no byte.
+        :param plays: how often a GIF or APNG plays (default: for ever).
         :param for_: size, rate and background that suit "powerpoint", "web", ...
         :param part: (2, 3) renders the second of three shares, for ``join``.
         :param bundle: a folder for the video, a poster, captions, and snippets for slides.
@@ -377,6 +379,7 @@ class Scene:
             "--crf": crf,
             "--preset": preset,
             "--encoder": encoder,
+            "--plays": plays,
             "--smallest": smallest,
             "--max-flashes": max_flashes,
             "--profile": profile,
