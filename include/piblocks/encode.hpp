@@ -18,10 +18,14 @@ struct EncoderSettings {
   std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
   /// One of encoder_names(). "builtin" is our own, the one that encodes only what changes.
   std::optional<std::string> encoder = {};
-  std::optional<int> plays =
-      {};  ///< of GIF and APNG: how often they play, 1 … 65535; else for ever
+  /// Of the first of numbered pictures, 0 … kMaxStartNumber; else 1. What follows the last one then
+  /// stays, as part of a longer sequence.
+  std::optional<int> start_number = {};
+  /// How often a GIF or APNG plays, 1 … kMaxPlays; else for ever.
+  std::optional<int> plays = {};
 };
 
+inline constexpr int kMaxStartNumber = 999'999'999;
 inline constexpr int kMaxPlays = 65535;
 
 /// What an encoder is for: MP4 and MOV, WebM, MOV with alpha, or sound.

@@ -53,6 +53,9 @@ void add_encoder_options(Command& command) {
   command.add_value("--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
   command.add_flag("--smallest",
                    "Smallest MP4, by libx264: under half the size, and many\ntimes the time");
+  command.add_value("--start-number", "N",
+                    "Number of the first picture of a sequence (default: 1); what\n"
+                    "follows the last one then stays");
   command.add_value("--plays", "N", "How often a GIF or APNG plays (default: for ever)");
 }
 

@@ -39,13 +39,16 @@ double parse_crf(const std::string& text) { return to_double(parse_rational(text
 EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
 
 int parse_plays(const std::string& text) { return parse_int(text, 1, kMaxPlays); }
+int parse_start(const std::string& text) { return parse_int(text, 0, kMaxStartNumber); }
 
 EncoderSettings settings_of(const OptionTexts& options) {
   const std::optional<int> plays = options.value("--plays", parse_plays);
+  const std::optional<int> start_number = options.value("--start-number", parse_start);
   if (!options.is_given("--smallest")) {
     return {.crf = options.value("--crf", parse_crf),
             .preset = options.text("--preset"),
             .encoder = options.text("--encoder"),
+            .start_number = start_number,
             .plays = plays};
   }
   for (const char* option : {"--crf", "--preset", "--encoder"}) {

@@ -230,6 +230,9 @@ JobDescription read_description(const ShardFile& part) {
   if (setting(part, "crf")) job.encoder.crf = to_double(rational(part, "crf"));
   job.encoder.preset = setting(part, "preset");
   job.encoder.encoder = setting(part, "encoder");
+  if (setting(part, "start-number")) {
+    job.encoder.start_number = int(number(part, "start-number", kMaxStartNumber));
+  }
   if (setting(part, "plays")) job.encoder.plays = int(number(part, "plays", kMaxPlays));
   job.signature = value_of(part, "output");
   job.frame_count = number(part, "frames", kMaxFrames);
@@ -255,8 +258,10 @@ ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t fr
   header.emplace_back("crf", crf ? rational_from_decimal(*crf).get_str() : kDefault);
   header.emplace_back("preset", job.encoder.preset.value_or(kDefault));
   header.emplace_back("encoder", job.encoder.encoder.value_or(kDefault));
-  const auto& plays = job.encoder.plays;
-  header.emplace_back("plays", plays ? std::to_string(*plays) : kDefault);
+  for (const auto& [name, value] : {std::pair("plays", job.encoder.plays),
+                                    std::pair("start-number", job.encoder.start_number)}) {
+    header.emplace_back(name, value ? std::to_string(*value) : kDefault);
+  }
   header.emplace_back("painter", painter_fingerprint());
   header.emplace_back("output", output.signature);
   return header;

@@ -1,5 +1,7 @@
 // What was there before a run: which files it replaces, and which it leaves alone.
 #include <csignal>
+#include <map>
+#include <string>
 
 #include "cli/cli_fixture.hpp"
 
@@ -68,6 +70,34 @@ TEST_F(OldFilesTest, OfALongerSequenceGoWithIt) {
 }
 
 /// Under names that an output makes; a name that is given whole is the user's to replace.
+TEST_F(OldFilesTest, AfterAPartOfALongerSequenceStay) {
+  render("%d.png");
+  Names all = entries();
+  ASSERT_EQ(all.size(), 5U);
+  std::map<std::string, std::string> before;
+  for (const std::string& name : all) before[name] = contents(name);
+  const Arguments part = kSmall + Arguments{"--theme", "dark", "--to", "0.2", "-o", "%d.png"};
+  output_of(part + Arguments{"--start-number", "3"});
+  EXPECT_EQ(entries(), all);
+  for (const std::string& name : all) {
+    EXPECT_EQ(contents(name) == before[name], name != "3.png" && name != "4.png") << name;
+  }
+  output_of(part + Arguments{"--start-number", "0"});
+  output_of(part + Arguments{"--start-number", "999999998"});
+  for (const char* name : {"0.png", "999999998.png", "999999999.png"}) EXPECT_TRUE(is_png(name));
+  write("700.png", "mine");
+  const CommandResult refused = piblocks(part + Arguments{"--start-number", "699"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "'700.png' is there")) << refused.err;
+  EXPECT_FALSE(fs::exists(folder_ / "699.png"));
+  for (const char* number : {"1", "2"}) {
+    output_of(part + Arguments{"--start-number", "40", "--part", number + std::string("/2")});
+  }
+  output_of({"join", "--quiet", "%d.png.part-1-of-2", "%d.png.part-2-of-2", "-o", "%d.png"});
+  EXPECT_TRUE(is_png("40.png") && is_png("41.png"));
+  expect_refusal(kSmall + Arguments{"-o", "a.mp4", "--start-number", "3"}, "has no numbers");
+}
+
 TEST_F(OldFilesTest, OfOthersAreReplacedOnlyOnDemand) {
   for (const char* part : {"1/2", "2/2"}) {
     output_of(kSmall + Arguments{"--to", "0.3", "--part", part, "-o", "%d.png"});

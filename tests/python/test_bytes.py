@@ -23,6 +23,7 @@ FILM = [*SMALL, "--fps", "10", "--to", "4"]
         ("a.mp4", ["--sound"]),
         ("a.mp4", ["--encoder", "libx264", "--crf", "30", "--preset", "veryfast"]),
         ("a.gif", ["--plays", "3"]),
+        ("%03d.png", ["--start-number", "700"]),
         ("a.mp4", ["--part", "2/2", "--jobs", "1"]),
         ("a.mov", []),
         ("a.webm", []),

@@ -30,6 +30,7 @@ constexpr unsigned kAlpha = 2;
 constexpr unsigned kSound = 4;
 constexpr unsigned kPictures = 8;  // keeps them
 constexpr unsigned kPlays = 16;    // says how often it plays
+constexpr unsigned kNumbers = 32;  // has numbered files
 
 struct OutputKind {
   std::string_view ending;  ///< of its files' names, or the whole name if that has no dot
@@ -47,7 +48,8 @@ constexpr std::array kOutputKinds = {
     OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures | kPlays},
     OutputKind{".apng", apng_output, kPictures | kAlpha | kPlays},
-    OutputKind{".png", png_output, kPictures | kAlpha, " with a number field such as %06d"},
+    OutputKind{".png", png_output, kPictures | kAlpha | kNumbers,
+               " with a number field such as %06d"},
     OutputKind{".y4m", y4m_output, kPictures},
     OutputKind{"-", y4m_output, kPictures, " (y4m on standard output)"},
     OutputKind{".framehash", by_module<&AvModule::framehash_output>, kPictures | kAlpha},
@@ -104,6 +106,11 @@ void check_kind(const OutputKind& kind, const OutputRequest& request, Problems& 
     problems.add(fmt::format(
         "output: '{}' does not say how often it plays; leave that out or write one of: {}",
         request.name, names(kPlays)));
+  }
+  if (settings.start_number && !kind.has(kNumbers)) {
+    problems.add(
+        fmt::format("output: '{}' has no numbers; leave the start number out or write one of: {}",
+                    request.name, names(kNumbers)));
   }
   if (request.format.has_alpha && !kind.has(kAlpha)) {
     problems.add(fmt::format(

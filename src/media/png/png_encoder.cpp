@@ -145,9 +145,13 @@ class PngEncoder final : public PacketPerFrameEncoder {
 /// sequence. It replaces other files only if it is told to, and never removes them.
 class PngSequence final : public FrameSink {
  public:
-  PngSequence(FramePattern pattern, std::int64_t frames, bool overwrite)
+  /// @param start_number  of the first picture; nothing for 1, as FFmpeg's image2 muxer has it.
+  PngSequence(FramePattern pattern, std::int64_t frames, bool overwrite,
+              std::optional<int> start_number)
       : pattern_(std::move(pattern)),
         overwrite_(overwrite),
+        first_(start_number.value_or(1)),
+        is_part_(start_number.has_value()),
         files_(pattern_.folder(), pattern_.label()) {
     check_names(frames);
   }
@@ -162,7 +166,7 @@ class PngSequence final : public FrameSink {
   void finish() override {
     check_names(counter_.frames());  // files may have come meanwhile
     // Pictures of an earlier, longer sequence would look like the end of this one.
-    for (std::int64_t number = next_number(); is_file(path_of(number)); ++number) {
+    for (auto number = next_number(); !is_part_ && is_file(path_of(number)); ++number) {
       if (!has_png_mark(path_of(number), PngMark::sequence)) {
         ++left_;
         continue;
@@ -186,8 +190,7 @@ class PngSequence final : public FrameSink {
   }
 
  private:
-  /// From 1 on, as those of FFmpeg's image2 muxer.
-  std::int64_t next_number() const { return 1 + counter_.frames(); }
+  std::int64_t next_number() const { return first_ + counter_.frames(); }
   fs::path path_of(std::int64_t number) const {
     return fs::path(pattern_.folder()) / pattern_.name(number);
   }
@@ -201,7 +204,7 @@ class PngSequence final : public FrameSink {
   void check_names(std::int64_t frames) {
     foreign_ = 0;
     fs::path first;
-    for (std::int64_t number = 1; number <= frames; ++number) {
+    for (std::int64_t number = first_; number < first_ + frames; ++number) {
       const fs::path path = path_of(number);
       if (!is_file(path) || has_png_mark(path, PngMark::sequence)) continue;
       if (foreign_++ == 0) first = path;
@@ -215,6 +218,8 @@ class PngSequence final : public FrameSink {
 
   FramePattern pattern_;
   bool overwrite_;
+  std::int64_t first_;
+  bool is_part_;  // of a longer sequence
   FileSet files_;
   FrameCounter counter_;
   std::int64_t foreign_ = 0;  // files that are replaced and were no pictures of a sequence
@@ -304,9 +309,9 @@ Output png_output(const OutputRequest& request) {
       .signature = fmt::format("png by zlib {}", zlibVersion()),
       .make_encoder = [format = request.format] { return std::make_unique<PngEncoder>(format); },
       .open =
-          [pattern = FramePattern(request.name),
-           overwrite = request.overwrite](std::int64_t frames) {
-            return std::make_unique<PngSequence>(pattern, frames, overwrite);
+          [pattern = FramePattern(request.name), overwrite = request.overwrite,
+           start_number = request.settings.start_number](std::int64_t frames) {
+            return std::make_unique<PngSequence>(pattern, frames, overwrite, start_number);
           }};
 }
 

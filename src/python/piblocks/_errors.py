@@ -15,7 +15,8 @@ _OPTIONS = {
     for name in (
         "at base bounds bundle by count-antialiasing crf diff digits dir encoder engine first "
         "frames hard-delta ignore-transparent jobs last limit mass-ratio max-delta max-flashes "
-        "max-pixels max-window part plays poster preset restitution smallest threshold"
+        "max-pixels max-window part plays poster preset restitution smallest "
+        "start-number threshold"
     ).split()
 } | {
     "allow-uncertain": "time_allow_uncertain=True",

@@ -346,6 +346,7 @@ class Scene:
         crf: Any = None,
         preset: str | None = None,
         encoder: str | None = None,
+        start_number: int | None = None,
         plays: int | None = None,
         smallest: bool = False,
         part: Any = None,
@@ -365,6 +366,7 @@ class Scene:
         :param progress: True for a line on standard error; or called with the frames done and the
             frames in all. An exception in it stops the rendering, and is raised.
         :param jobs: threads (default: one a processor); changes no byte.
+        :param start_number: of the first numbered picture (default: 1).
         :param plays: how often a GIF or APNG plays (default: for ever).
         :param for_: size, rate and background that suit "powerpoint", "web", ...
         :param part: (2, 3) renders the second of three shares, for ``join``.
@@ -379,6 +381,7 @@ class Scene:
             "--crf": crf,
             "--preset": preset,
             "--encoder": encoder,
+            "--start-number": start_number,
             "--plays": plays,
             "--smallest": smallest,
             "--max-flashes": max_flashes,
