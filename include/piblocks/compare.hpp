@@ -38,7 +38,7 @@ struct Tolerance {
   std::optional<double> threshold = {};
   bool counts_smoothing = false;     ///< whether pixels of smoothed edges are off by the threshold
   bool ignores_transparent = false;  ///< whether fully transparent pixels are equal
-  Rational max_share = 1;            ///< of the image's pixels may be off, 0 … 1
+  Rational max_share = 1;            ///< the part of the image's pixels that may be off, 0 … 1
 
   friend bool operator==(const Tolerance&, const Tolerance&) = default;
 };

@@ -46,26 +46,22 @@ struct NamedCommand {
   void (*define)(Command& command);
 };
 
-constexpr std::array kCommands = {
-    NamedCommand{"render", "Render a video or a sequence of frames", define_render},
-    NamedCommand{"join", "Join the parts of a rendering", define_join},
-    NamedCommand{"still", "Render one instant as a picture", define_still},
-    NamedCommand{"sheet", "Render several instants on one page, for paper", define_sheet},
-    NamedCommand{"page", "Write the live page, which runs this program in a browser", define_page},
-    NamedCommand{"log", "Print every collision, a row each", define_log},
-    NamedCommand{"state", "Print positions, velocities and count, one JSON object a line",
-                 define_state},
-    NamedCommand{"count", "Print the total number of collisions", define_count},
-    NamedCommand{"need", "Print how elastic real blocks must be to count digits of pi",
-                 define_need},
-    NamedCommand{"scenes", "List the scenes that come with the program", define_scenes},
-    NamedCommand{"compare", "Compare pictures, sequences or videos", define_compare},
-    NamedCommand{"golden", "Hold scenes and pictures to references: record, check, approve",
-                 define_golden},
-    NamedCommand{"info", "Print versions of the libraries, encoders found, limits", define_info},
-    NamedCommand{"manual", "Print the manual page, or what a shell needs to complete options",
-                 define_manual},
-};
+constexpr auto kCommands = std::to_array<NamedCommand>({
+    {"render", "Render a video or a sequence of frames", define_render},
+    {"join", "Join the parts of a rendering", define_join},
+    {"still", "Render one instant as a picture", define_still},
+    {"sheet", "Render several instants on one page, for paper", define_sheet},
+    {"page", "Write the live page, which runs this program in a browser", define_page},
+    {"log", "Print every collision, a row each", define_log},
+    {"state", "Print positions, velocities and count, one JSON object a line", define_state},
+    {"count", "Print the total number of collisions", define_count},
+    {"need", "Print how elastic real blocks must be to count digits of pi", define_need},
+    {"scenes", "List the scenes that come with the program", define_scenes},
+    {"compare", "Compare pictures, sequences or videos", define_compare},
+    {"golden", "Hold scenes and pictures to references: record, check, approve", define_golden},
+    {"info", "Print versions of the libraries, encoders found, limits", define_info},
+    {"manual", "Print the manual page, or what a shell needs to complete options", define_manual},
+});
 
 void add_version(CLI::App& command) {
   command.add_flag("--version")->description("Print the version and exit");

@@ -73,12 +73,7 @@ class Printer {
  public:
   explicit Printer(bool quiet) : quiet_(quiet) {}
 
-  void add(const FrameComparison& frame) {
-    if (frame.outcome == Outcome::equal) return;
-    const bool takes = shown_.takes(frame.outcome);
-    const bool is_left = shown_.add(frame.outcome, takes ? row_text(frame) : "").has_value();
-    left_ += is_left ? 1 : 0;
-  }
+  void add(const FrameComparison& frame) { shown_.add(frame); }
 
   void finish(const ComparisonJob& job, const ComparisonResult& result,
               const std::vector<std::string>& notes) {
@@ -86,11 +81,10 @@ class Printer {
       if (outcome == Outcome::unreadable) {
         say("piblocks: {}\n", line);
       } else if (!quiet_) {
-        out_.line(printable(line));
+        out_.line(line);
       }
     });
     if (!quiet_) {
-      if (left_ > 0) out_.format_line("… and {} more", left_);
       out_.line(printable(summary_text(job, result)));
       for (const std::string& note : notes) out_.line(printable(note));
     }
@@ -99,8 +93,7 @@ class Printer {
 
  private:
   bool quiet_;
-  ShownFrames<std::string> shown_;
-  std::int64_t left_ = 0;
+  ShownLines shown_;
   TextOutput out_;
 };
 

@@ -105,9 +105,7 @@ void copy_to_references(const FolderComparison& folder, const Row& row) {
   constexpr std::size_t kAny = std::size_t{1} << 40;
   const std::vector<std::uint8_t> bytes = bytes_of_file(row.actual, kAny);
   if (bytes.empty()) throw IoError(fmt::format("golden: cannot read '{}'", row.actual));
-  OutputFile file((folder.references / row.name).string());
-  file.write(bytes);
-  file.finish();
+  write_file(folder.references / row.name, bytes);
 }
 
 void remove_reference(const fs::path& path) {

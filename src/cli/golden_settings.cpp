@@ -47,24 +47,6 @@ std::string with_path(const std::string& mask, const Change& change) {
   return mask.substr(0, begin) + change(fs::path(mask.substr(begin))).string();
 }
 
-/// The options of a file.
-class KeptOptions final : public OptionTexts {
- public:
-  explicit KeptOptions(const std::map<std::string, std::vector<std::string>>& values)
-      : values_(values) {}
-
-  bool is_given(const std::string& option) const override { return values_.contains(option); }
-  std::optional<std::string> text(const std::string& option) const override {
-    return is_given(option) ? std::optional(values_.at(option).front()) : std::nullopt;
-  }
-  std::vector<std::string> texts(const std::string& option) const override {
-    return is_given(option) ? values_.at(option) : std::vector<std::string>();
-  }
-
- private:
-  const std::map<std::string, std::vector<std::string>>& values_;
-};
-
 }  // namespace
 
 std::string library_versions() {
@@ -104,7 +86,7 @@ void GoldenSettings::apply_to(ComparisonJob& job) const {
   read_tolerance(given_, job);
   ComparisonJob kept;
   try {
-    read_tolerance(KeptOptions(kept_), kept);
+    read_tolerance(kept_, kept);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("golden: '{}': {}", path_.string(), error.what()));
   }
@@ -117,9 +99,9 @@ void GoldenSettings::apply_to(ComparisonJob& job) const {
 
 std::vector<std::string> GoldenSettings::texts(const std::string& option) const {
   std::vector<std::string> all = given_.texts(option);
-  const auto kept = kept_.find(option);
-  if (kept == kept_.end() || (replaces_ && option != "--mask")) return all;
-  all.insert(all.end(), kept->second.begin(), kept->second.end());
+  if (replaces_ && option != "--mask") return all;
+  const std::vector<std::string> kept = kept_.texts(option);
+  all.insert(all.end(), kept.begin(), kept.end());
   return all;
 }
 
@@ -165,16 +147,15 @@ void GoldenSettings::read(const std::string& line) {
     throw UsageError(fmt::format("golden: '{}' has '{}'; {} has {}", path_.string(),
                                  shortened(line), name, has_value ? "no value" : "a value"));
   }
-  std::vector<std::string>& values = kept_[name];
-  values.push_back(has_value ? line.substr(end + 1) : "true");
+  std::string value = has_value ? line.substr(end + 1) : "true";
   if (name == "--mask") {
-    values.back() = with_path(values.back(), [this](const fs::path& path) {
+    value = with_path(value, [this](const fs::path& path) {
       return (path_.parent_path() / path).lexically_normal();
     });
-  }
-  if (values.size() > 1 && name != "--mask") {
+  } else if (kept_.is_given(name)) {
     throw UsageError(fmt::format("golden: '{}' has {} twice", path_.string(), name));
   }
+  kept_.add(name, value);
 }
 
 std::vector<std::string> GoldenSettings::from_references(std::vector<std::string> masks) const {

@@ -5,7 +5,6 @@
 #include <piblocks/compare.hpp>
 
 #include <filesystem>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -52,7 +51,7 @@ class GoldenSettings {
   std::filesystem::path path_;
   std::string versions_;
   std::vector<std::string> comments_;
-  std::map<std::string, std::vector<std::string>> kept_;
+  OptionMap kept_;
   bool replaces_;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,30 @@ class OptionTexts {
       throw UsageError(fmt::format("{} {}: {}", option, shown, error.what()));
     }
   }
+};
+
+/// Options that no command line has given.
+class OptionMap final : public OptionTexts {
+ public:
+  OptionMap() = default;
+  explicit OptionMap(const std::map<std::string, std::string>& texts)
+      : texts_(texts.begin(), texts.end()) {}
+
+  void add(const std::string& option, const std::string& text) { texts_.emplace(option, text); }
+  bool is_given(const std::string& option) const override { return texts_.contains(option); }
+  std::optional<std::string> text(const std::string& option) const override {
+    const auto found = texts_.find(option);
+    return found == texts_.end() ? std::nullopt : std::optional(found->second);
+  }
+  std::vector<std::string> texts(const std::string& option) const override {
+    std::vector<std::string> all;
+    const auto [begin, end] = texts_.equal_range(option);
+    for (auto at = begin; at != end; ++at) all.push_back(at->second);
+    return all;
+  }
+
+ private:
+  std::multimap<std::string, std::string> texts_;
 };
 
 }  // namespace piblocks::cli

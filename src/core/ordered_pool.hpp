@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -57,7 +58,7 @@ class OrderedPool {
   }
 
   /// The result of the next task in order; nothing after the last or when told to stop.
-  /// Rethrows the first exception of any task.
+  /// Rethrows what that task has thrown, whatever later ones do; or what making a task has.
   /// @param while_waiting  called ten times a second.
   std::optional<Result> take(
       const std::stop_token& stop, const std::function<void()>& while_waiting = [] {}) {
@@ -65,7 +66,7 @@ class OrderedPool {
     if constexpr (!kHasThreads) return task_(next_to_take_++, stop);
     std::unique_lock lock(mutex_);
     const auto is_ready = [this] {
-      return failure_ != nullptr || results_.contains(next_to_take_);
+      return failed_ <= next_to_take_ || results_.contains(next_to_take_);
     };
     while (!changed_.wait_for(lock, stop, kCallInterval, is_ready)) {
       if (stop.stop_requested()) return std::nullopt;
@@ -73,7 +74,7 @@ class OrderedPool {
       while_waiting();
       lock.lock();
     }
-    if (failure_ != nullptr) std::rethrow_exception(failure_);
+    if (failed_ <= next_to_take_) std::rethrow_exception(failure_);
     auto node = results_.extract(next_to_take_);
     ++next_to_take_;
     held_ -= weigh_(node.mapped());
@@ -87,9 +88,10 @@ class OrderedPool {
   static constexpr std::chrono::milliseconds kCallInterval{100};
 
   void work(const MakeTask& make_task, const std::stop_token& stop) {
+    std::optional<std::int64_t> index;
     try {
       const Task task = make_task();
-      while (const auto index = begin_task(stop)) {
+      while ((index = begin_task(stop))) {
         Result result = task(*index, stop);
         const std::lock_guard lock(mutex_);
         held_ += weigh_(result);
@@ -98,7 +100,10 @@ class OrderedPool {
       }
     } catch (...) {
       const std::lock_guard lock(mutex_);
-      if (failure_ == nullptr) failure_ = std::current_exception();
+      if (const std::int64_t failed = index.value_or(-1); failed < failed_) {
+        failed_ = failed;
+        failure_ = std::current_exception();
+      }
       changed_.notify_all();
     }
   }
@@ -106,12 +111,13 @@ class OrderedPool {
   std::optional<std::int64_t> begin_task(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     const bool room = changed_.wait(lock, stop, [this] {
-      return failure_ != nullptr || next_to_begin_ == count_ ||
+      return has_failed() || next_to_begin_ == count_ ||
              next_to_begin_ < next_to_take_ + (held_ <= kLittle ? 16 : 2) * workers_;
     });
-    if (!room || failure_ != nullptr || next_to_begin_ == count_) return std::nullopt;
+    if (!room || has_failed() || next_to_begin_ == count_) return std::nullopt;
     return next_to_begin_++;
   }
+  bool has_failed() const { return failure_ != nullptr; }
 
   const std::int64_t count_;
   const std::int64_t workers_;
@@ -122,8 +128,9 @@ class OrderedPool {
   std::size_t held_ = 0;  ///< bytes of results_
   std::int64_t next_to_begin_ = 0;
   std::int64_t next_to_take_ = 0;
-  std::exception_ptr failure_;
-  Task task_;                          // without threads
+  std::exception_ptr failure_;  // of the first task in order that has failed
+  std::int64_t failed_ = std::numeric_limits<std::int64_t>::max();  // its number
+  Task task_;                                                       // without threads
   std::vector<std::jthread> threads_;  // last: joined before the rest is gone
 };
 

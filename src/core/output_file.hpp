@@ -102,4 +102,11 @@ class OutputFile {
   Descriptor descriptor_;
 };
 
+/// Makes a file of these bytes. @throws as OutputFile
+inline void write_file(const std::string& name, std::span<const std::uint8_t> bytes) {
+  OutputFile file(name);
+  file.write(bytes);
+  file.finish();
+}
+
 }  // namespace piblocks

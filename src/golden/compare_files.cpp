@@ -4,7 +4,6 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -130,14 +129,7 @@ std::unique_ptr<FrameSide> open_side(const std::string& name, const ComparisonJo
   return picture_side(placed_in_order(std::move(list)));
 }
 
-/// A pair, or why the comparison makes no sense.
-struct Attempt {
-  ComparedPair pair = {};
-  std::exception_ptr failure = {};
-};
-
-/// A pair for each processor; a lone pair has two. Of several pairs that make no sense the first
-/// one is named, whichever thread comes to one first.
+/// A pair for each processor; a lone pair has two.
 void compare_pairs(const PictureList& reference, const PictureList& actual,
                    const std::vector<PicturePair>& pairs, const ComparisonJob& job,
                    PairTaker& taker, const std::stop_token& stop) {
@@ -153,21 +145,11 @@ void compare_pairs(const PictureList& reference, const PictureList& actual,
     return compare_frames(fetched(reference, pair.reference), fetched(actual, pair.actual), job);
   };
   if (pairs.size() == 1) return taker.take(compare_pair(0, stop));
-  const auto attempt = [&](std::int64_t index, const std::stop_token& halt) {
-    try {
-      return Attempt{compare_pair(index, halt)};
-    } catch (const UsageError&) {
-      return Attempt{.failure = std::current_exception()};
-    }
-  };
-  using Pool = OrderedPool<Attempt>;
+  using Pool = OrderedPool<ComparedPair>;
   Pool pool(
-      std::ssize(pairs), processor_count(), [&] { return Pool::Task(attempt); },
-      [](const Attempt& done) { return done.pair.held_bytes; });
-  while (auto done = pool.take(stop)) {
-    if (done->failure) std::rethrow_exception(done->failure);
-    taker.take(std::move(done->pair));
-  }
+      std::ssize(pairs), processor_count(), [&] { return Pool::Task(compare_pair); },
+      [](const ComparedPair& pair) { return pair.held_bytes; });
+  while (auto pair = pool.take(stop)) taker.take(*std::move(pair));
   check_stop(stop);
 }
 

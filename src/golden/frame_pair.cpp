@@ -216,21 +216,18 @@ bool fits_size(const Mask& mask, const PictureSize& size, const std::string& nam
                                size.height_px));
 }
 
-/// The masks of the job that concern a pair; notes in the result those that hide a part of it.
-std::vector<PixelRect> masks_of(const ComparisonJob& job, const Fetched& reference,
-                                const Fetched& actual, const PictureSize& size,
+/// The masks that concern a pair. Leaves in the result those that hide a part of it.
+std::vector<PixelRect> masks_of(const ComparisonJob& job, const PictureSize& size,
                                 ComparedPair& result) {
   std::vector<PixelRect> rects;
-  for (std::size_t i = 0; i < job.masks.size(); ++i) {
-    const Mask& mask = job.masks[i];
-    if (!concerns(mask, reference, actual)) continue;
-    if (!fits_size(mask, size, result.row.name)) continue;
+  std::erase_if(result.masks, [&](std::size_t index) {
+    const Mask& mask = job.masks[index];
+    if (!fits_size(mask, size, result.row.name)) return true;
     rects.insert(rects.end(), mask.rects.begin(), mask.rects.end());
-    const auto hides = [&](const PixelRect& r) {
+    return std::ranges::none_of(mask.rects, [&](const PixelRect& r) {
       return r.x_px < size.width_px && r.y_px < size.height_px;
-    };
-    if (std::ranges::any_of(mask.rects, hides)) result.masks.push_back(i);
-  }
+    });
+  });
   return rects;
 }
 
@@ -248,8 +245,7 @@ void compare_samples(const Fetched& reference, const Fetched& actual, const Comp
   if (!row.problem.empty()) return;
   result.is_compared = true;
   row.width_px = pair->size().width_px;
-  result.masks.clear();
-  row.masks = masks_of(job, reference, actual, pair->size(), result);
+  row.masks = masks_of(job, pair->size(), result);
   pair->unify();
   row.difference = pair->apply([&](const auto& a, const auto& b) {
     return compare(comparable(a), comparable(b), job.tolerance, row.masks);

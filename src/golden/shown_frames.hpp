@@ -3,13 +3,19 @@
 // severe ones, the first.
 #pragma once
 
+#include <fmt/format.h>
 #include <piblocks/compare.hpp>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "core/text.hpp"
+#include "golden/difference.hpp"
 
 namespace piblocks {
 
@@ -60,6 +66,26 @@ class ShownFrames {
 
   std::array<std::vector<Item>, kOutcomes> items_;
   std::size_t count_ = 0;
+};
+
+/// The lines of the frames that are shown.
+class ShownLines {
+ public:
+  void add(const FrameComparison& frame) {
+    if (frame.outcome == Outcome::equal) return;
+    const std::string line = lines_.takes(frame.outcome) ? printable(row_text(frame)) : "";
+    left_ += lines_.add(frame.outcome, line) ? 1 : 0;
+  }
+  /// Calls use(outcome, line); the last line says how many others there are, if there are any.
+  template <typename Use>
+  void for_each(const Use& use) const {
+    lines_.for_each(use);
+    if (left_ > 0) use(Outcome::accepted, fmt::format("… and {} more", left_));
+  }
+
+ private:
+  ShownFrames<std::string> lines_;
+  std::int64_t left_ = 0;
 };
 
 }  // namespace piblocks

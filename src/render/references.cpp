@@ -133,9 +133,7 @@ void References::render_into(const fs::path& folder, int jobs, const OnProgress&
   for (std::size_t i = 0; i < golden().frames.size(); ++i) {
     check_stop(stop);
     const DrawList picture = still_picture(film, parse_instant(golden().frames[i]));
-    OutputFile file(folder / names[i + 1]);
-    file.write(draw_png(picture, stop));
-    file.finish();
+    write_file(folder / names[i + 1], draw_png(picture, stop));
   }
 }
 

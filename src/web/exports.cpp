@@ -191,10 +191,7 @@ EMSCRIPTEN_KEEPALIVE const std::uint8_t* live_pixels() { return screen.patch().r
 /// Writes the picture that is shown to a file of the page's memory: `*.png`, `*.svg`, `*.pdf`.
 EMSCRIPTEN_KEEPALIVE bool live_save(const char* name) {
   return store_answer([&] {
-    const std::vector<std::uint8_t> bytes = encoded(name);
-    OutputFile file(name);
-    file.write(bytes);
-    file.finish();
+    write_file(name, encoded(name));
     return std::string();
   });
 }

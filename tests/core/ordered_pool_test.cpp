@@ -97,6 +97,29 @@ TEST(OrderedPool, RethrowsTheFirstFailureAndStops) {
       MediaError);
 }
 
+/// Whichever comes first in time: results before it are handed on.
+TEST(OrderedPool, RethrowsTheFailureThatIsFirstInOrder) {
+  std::atomic<bool> has_failed = false;
+  const auto make_task = [&] {
+    return [&](std::int64_t n, const std::stop_token&) -> std::int64_t {
+      if (n == 3) {
+        has_failed = true;
+        throw DrawError("three");
+      }
+      while (n == 2 && !has_failed) std::this_thread::yield();
+      if (n == 2) throw MediaError("two");
+      return n;
+    };
+  };
+  for (int i = 0; i < 20; ++i) {
+    has_failed = false;
+    Pool pool(1000, 2, make_task, nothing);
+    EXPECT_EQ(pool.take({}), 0);
+    EXPECT_EQ(pool.take({}), 1);
+    EXPECT_THROW(pool.take({}), MediaError);
+  }
+}
+
 TEST(OrderedPool, RethrowsWhatMakingAWorkerThrows) {
   Pool pool(
       10, 2, []() -> Pool::Task { throw DrawError("no canvas"); }, nothing);

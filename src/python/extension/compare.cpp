@@ -40,28 +40,6 @@ namespace py = pybind11;
 /// What is behind --mask, or a picture.
 using MaskSource = std::variant<std::string, std::shared_ptr<Picture>>;
 
-/// Options of 'piblocks compare', of which --mask has several texts.
-class CompareOptions final : public cli::OptionTexts {
- public:
-  CompareOptions(std::map<std::string, std::string> texts, const std::vector<MaskSource>& masks)
-      : options_(std::move(texts)) {
-    for (const MaskSource& mask : masks) {
-      if (const auto* text = std::get_if<std::string>(&mask)) masks_.push_back(*text);
-    }
-  }
-  bool is_given(const std::string& option) const override { return options_.is_given(option); }
-  std::optional<std::string> text(const std::string& option) const override {
-    return options_.text(option);
-  }
-  std::vector<std::string> texts(const std::string& option) const override {
-    return option == "--mask" ? masks_ : OptionTexts::texts(option);
-  }
-
- private:
-  BoundOptions options_;
-  std::vector<std::string> masks_;
-};
-
 Mask drawn_mask(const Picture& picture, const std::string& name) {
   const Fetched fetched = picture.fetch(name);
   try {
@@ -77,41 +55,17 @@ ComparisonJob job_of(const Picture& reference, const Picture& actual,
                      const std::vector<MaskSource>& masks) {
   ComparisonJob job{reference.has_path() ? *reference.path() : "the reference",
                     actual.has_path() ? *actual.path() : "the actual picture"};
-  cli::read_tolerance(CompareOptions(options, masks), job);
+  BoundOptions given(options);
+  for (const MaskSource& mask : masks) {
+    if (const auto* text = std::get_if<std::string>(&mask)) given.add("--mask", *text);
+  }
+  cli::read_tolerance(given, job);
   for (std::size_t i = 0; i < masks.size(); ++i) {
     if (const auto* picture = std::get_if<std::shared_ptr<Picture>>(&masks[i])) {
       job.masks.push_back(drawn_mask(**picture, fmt::format("masks[{}]", i)));
     }
   }
   return job;
-}
-
-/// The most severe lines and the summary, as the command line prints them; of a pair, its line.
-class Lines {
- public:
-  void add(const FrameComparison& row) {
-    if (row.outcome == Outcome::equal) return;
-    const std::string text = shown_.takes(row.outcome) ? printable(row_text(row)) : "";
-    left_ += shown_.add(row.outcome, text) ? 1 : 0;
-  }
-  std::vector<std::string> take(const std::string& summary) const {
-    std::vector<std::string> lines;
-    shown_.for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
-    if (left_ > 0) lines.push_back(fmt::format("… and {} more", left_));
-    lines.push_back(printable(summary));
-    return lines;
-  }
-
- private:
-  ShownFrames<std::string> shown_;
-  std::int64_t left_ = 0;
-};
-
-/// The file appears when it is complete.
-void write_file(const std::string& output, ByteSpan bytes) {
-  OutputFile file(output);
-  file.write(bytes);
-  file.finish();
 }
 
 /// A comparison that has been made.
@@ -132,7 +86,7 @@ class Comparison {
       for (auto [side, other] : {std::pair(&expected, &found), std::pair(&found, &expected)}) {
         if (side->name.empty()) side->name = other->name.empty() ? "the picture" : other->name;
       }
-      result_ = compare_pair(std::move(expected), std::move(found), job_, take_row);
+      result_ = compare_pair(expected, found, job_, take_row);
     }
     const bool is_alone = rows_.size() == 1;
     if (is_alone && rows_[0].outcome == Outcome::unreadable) throw IoError(rows_[0].problem);
@@ -146,7 +100,10 @@ class Comparison {
   const std::vector<FrameComparison>& rows() const noexcept { return rows_; }
   std::vector<std::string> lines() const {
     if (pair_) return {line_of(*pair_)};
-    return lines_.take(summary_text(job_, result_));
+    std::vector<std::string> lines;
+    lines_.for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
+    lines.push_back(printable(summary_text(job_, result_)));
+    return lines;
   }
   std::string line_of(const FrameComparison& row) const {
     return printable(is_named_ ? row_text(row) : difference_text(row));
@@ -242,7 +199,7 @@ class Comparison {
   std::optional<FrameComparison> pair_;
   mutable std::mutex mutex_;           // of the pair's functions, which keep what they have made
   std::vector<FrameComparison> rows_;  // without pictures
-  Lines lines_;
+  ShownLines lines_;
 };
 
 std::shared_ptr<Comparison> compare_sides(const Picture& reference, const Picture& actual,

@@ -48,19 +48,7 @@ struct BoundScript {
   Script script;
 };
 
-/// Options of a command, without the command line.
-class BoundOptions final : public cli::OptionTexts {
- public:
-  explicit BoundOptions(std::map<std::string, std::string> texts) : texts_(std::move(texts)) {}
-  bool is_given(const std::string& option) const override { return texts_.contains(option); }
-  std::optional<std::string> text(const std::string& option) const override {
-    const auto found = texts_.find(option);
-    return found == texts_.end() ? std::nullopt : std::optional(found->second);
-  }
-
- private:
-  std::map<std::string, std::string> texts_;
-};
+using BoundOptions = cli::OptionMap;
 
 /// The one scene of a script.
 /// @param operation  named in messages. @throws UsageError if the script is a storyboard.
