@@ -36,7 +36,7 @@ struct Tolerance {
   /// If given, a pixel is off if it looks different, 0 … 1, whatever max_delta says: as odiff and
   /// pixelmatch 7 measure it, in YIQ and on white. Samples of RGB only.
   std::optional<double> threshold = {};
-  bool counts_smoothing = false;     ///< whether pixels of smoothed edges are off by the threshold
+  bool counts_antialiasing = false;  ///< whether pixels of smoothed edges are off by the threshold
   bool ignores_transparent = false;  ///< whether fully transparent pixels are equal
   Rational max_share = 1;            ///< the part of the image's pixels that may be off, 0 … 1
 
@@ -162,7 +162,7 @@ struct ComparisonResult {
   std::int64_t actual_frames = 0;     ///< that the actual side has, read or not
   /// Why a side has no frame, or why no picture of one side is paired with one of the other.
   std::string problem;
-  std::string note;  ///< on all rows: that one video shows the other one, some frames later
+  std::string note;  ///< that one video shows the other one some frames earlier or later
 
   std::int64_t count(Outcome outcome) const { return rows[static_cast<std::size_t>(outcome)]; }
   std::int64_t total() const;  ///< number of rows

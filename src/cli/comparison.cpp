@@ -85,6 +85,7 @@ class Printer {
       }
     });
     if (!quiet_) {
+      if (const std::string rest = shown_.rest(); !rest.empty()) out_.line(rest);
       out_.line(printable(summary_text(job, result)));
       for (const std::string& note : notes) out_.line(printable(note));
     }
@@ -138,7 +139,9 @@ void define_tolerance(Command& command) {
   command.add_value("--max-pixels", "N",
                     "Accept up to N pixels of a frame that differ by more, or N%");
   command.add_value("--hard-delta", "D", "Reject a frame if any sample differs by more than D");
-  command.add_value("--max-window", "N:K", "Accept up to K such pixels in any square of NxN");
+  command.add_value("--max-window", "N:K",
+                    "Accept up to K pixels that differ by more than --max-delta or\n"
+                    "--threshold in any square of NxN");
   command.add_values("--mask", "MASK",
                      "Leave out a part: WxH+X+Y, or what is not black in a PNG file; of\n"
                      "some pictures by NAME:MASK. May be given again, but something must\n"

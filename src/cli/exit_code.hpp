@@ -11,14 +11,16 @@
 
 namespace piblocks::cli {
 
-/// By Outcome.
-inline constexpr std::array<int, kOutcomes> kExitCodes = {
-    0, 0, kDifferent, kMismatch, kMismatch, kMismatch, kUnreadable};
+inline int exit_code_of(Outcome outcome) {
+  constexpr std::array<int, kOutcomes> kCodes = {0,         0,         kDifferent, kMismatch,
+                                                 kMismatch, kMismatch, kUnreadable};
+  return kCodes.at(static_cast<std::size_t>(outcome));
+}
 
 /// A side without a frame has a code of its own: without a reference all rows are new, and without
 /// the other side all are missing.
 inline int exit_code_of(const ComparisonResult& result) {
-  const int code = kExitCodes.at(static_cast<std::size_t>(result.worst()));
+  const int code = exit_code_of(result.worst());
   if (code == kUnreadable || result.actual_frames == 0) return kUnreadable;
   return result.reference_frames == 0 ? kMissingReference : code;
 }

@@ -21,9 +21,7 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
-int exit_code_of(const GoldenFindings& findings) {
-  return kExitCodes.at(static_cast<std::size_t>(findings.worst()));
-}
+int exit_code_of(const GoldenFindings& findings) { return cli::exit_code_of(findings.worst()); }
 
 /// The files of the references that are not there. @throws IoError
 std::vector<std::string> missing_files(const References& references) {

@@ -102,10 +102,7 @@ void check_readable(const std::vector<Row>& rows) {
 }
 
 void copy_to_references(const FolderComparison& folder, const Row& row) {
-  constexpr std::size_t kAny = std::size_t{1} << 40;
-  const std::vector<std::uint8_t> bytes = bytes_of_file(row.actual, kAny);
-  if (bytes.empty()) throw IoError(fmt::format("golden: cannot read '{}'", row.actual));
-  write_file(folder.references / row.name, bytes);
+  write_file(folder.references / row.name, whole_file(row.actual, "golden"));
 }
 
 void remove_reference(const fs::path& path) {
@@ -122,7 +119,7 @@ std::set<std::string> chosen_names(const Command& command, const FolderCompariso
   if (!list) return names;
   std::error_code error;
   const bool is_there = fs::exists(*list, error);
-  const std::vector<std::string> lines = lines_of(*list);
+  const std::vector<std::string> lines = lines_of(*list, "golden");
   names.insert(lines.begin(), lines.end());
   names.erase("");
   if (!names.empty()) return names;
@@ -155,9 +152,8 @@ void check_folder(const Command& command) {
       notes.emplace_back("'golden record' makes references of all pictures");
     } else if (const auto unused = result.count(Outcome::missing); unused > 0) {
       notes.push_back(
-          fmt::format("{} without a picture; 'golden approve --remove-unused' removes what is not "
-                      "used any more",
-                      counted(unused, "reference")));
+          fmt::format("{} without a picture; 'golden approve --remove-unused' removes {}",
+                      counted(unused, "reference"), unused == 1 ? "it" : "them"));
     }
     const std::string& theirs = folder.settings.recorded_with();
     if (result.worst() > Outcome::accepted && !theirs.empty() && theirs != library_versions()) {
@@ -178,10 +174,10 @@ void record_folder(const Command& command) {
   std::int64_t recorded = 0;
   const std::vector<Row> rows = compared(folder);
   for (const Row& row : rows) {
-    const bool is_found = row.outcome > Outcome::accepted && row.outcome != Outcome::added &&
-                          row.outcome != Outcome::missing;
-    if (!is_found || command.is_given("--missing")) continue;
-    code = worse_exit_code(code, kExitCodes.at(static_cast<std::size_t>(row.outcome)));
+    const bool is_obstacle = row.outcome > Outcome::accepted && row.outcome != Outcome::added &&
+                             row.outcome != Outcome::missing;
+    if (!is_obstacle || command.is_given("--missing")) continue;
+    code = worse_exit_code(code, exit_code_of(row.outcome));
     out.line(printable(fmt::format("{}: {}", row.name, row.text)));
   }
   if (code != 0) {
@@ -196,7 +192,9 @@ void record_folder(const Command& command) {
     copy_to_references(folder, row);
     ++recorded;
   }
-  folder.settings.write(GoldenSettings::Versions::as_before);
+  using Versions = GoldenSettings::Versions;
+  const bool is_first = std::ranges::count(rows, Outcome::added, &Row::outcome) == std::ssize(rows);
+  folder.settings.write(is_first ? Versions::of_this_machine : Versions::as_before);
   for (const Row& row : rows) {
     if (row.outcome != Outcome::unreadable) continue;
     out.line(printable(fmt::format("{}: left as it is ({})", row.name, row.text)));

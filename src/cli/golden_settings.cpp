@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -21,21 +21,14 @@ namespace {
 
 /// Beside the references: comments, of which one says what paints on this machine, and options.
 constexpr const char* kSettings = "piblocks-golden.txt";
-constexpr std::string_view kVersions = "# recorded with ";
+constexpr const char* kVersions = "# recorded with ";
 
-bool is_tolerance_option(const std::string& name) {
-  return std::ranges::any_of(kToleranceOptions, [&](const char* one) { return one == name; });
-}
-
-/// Whether the option has no value.
-bool is_flag(const std::string& name) {
-  return name == "--count-antialiasing" || name == "--ignore-transparent";
-}
+constexpr std::string_view kMask = "--mask";
 
 /// Whether there is any of the options but masks.
 bool has_tolerance(const Command& command) {
-  return std::ranges::any_of(kToleranceOptions, [&](const std::string& name) {
-    return name != "--mask" && command.is_given(name);
+  return std::ranges::any_of(kToleranceOptions, [&](const ToleranceOption& option) {
+    return option.name != kMask && command.is_given(option.name);
   });
 }
 
@@ -54,32 +47,10 @@ std::string library_versions() {
   return all.substr(0, all.find(", fonts"));
 }
 
-std::vector<std::string> lines_of(const fs::path& path) {
-  std::error_code error;
-  if (fs::status(path, error).type() == fs::file_type::not_found) return {};
-  refuse_pipe(path, "golden");
-  std::ifstream file(path);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) {
-    if (line.ends_with('\r')) line.pop_back();  // written or checked out on Windows
-    lines.push_back(line);
-  }
-  if (file.bad() || !file.eof()) {
-    throw IoError(fmt::format("golden: cannot read '{}'", path.string()));
-  }
-  return lines;
-}
-
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  std::error_code error;
-  const fs::path relative = fs::relative(fs::weakly_canonical(path, error), folder, error);
-  return !error && !relative.empty() && *relative.begin() != "..";
-}
-
 GoldenSettings::GoldenSettings(const Command& given, const fs::path& references)
     : given_(given), path_(references / kSettings), replaces_(has_tolerance(given)) {
-  for (const std::string& line : lines_of(path_)) read(line);
-  from_references(given.texts("--mask"));
+  for (const std::string& line : lines_of(path_, "golden")) read(line);
+  relative_to_references(given.texts("--mask"));
 }
 
 void GoldenSettings::apply_to(ComparisonJob& job) const {
@@ -99,66 +70,69 @@ void GoldenSettings::apply_to(ComparisonJob& job) const {
 
 std::vector<std::string> GoldenSettings::texts(const std::string& option) const {
   std::vector<std::string> all = given_.texts(option);
-  if (replaces_ && option != "--mask") return all;
+  if (replaces_ && option != kMask) return all;
   const std::vector<std::string> kept = kept_.texts(option);
   all.insert(all.end(), kept.begin(), kept.end());
   return all;
 }
 
 void GoldenSettings::write(Versions versions, const std::set<std::string>& removed) const {
-  const bool is_here = versions == Versions::of_this_machine || versions_.empty();
-  std::string text = fmt::format("{}{}\n", kVersions, is_here ? library_versions() : versions_);
-  for (const std::string& comment : comments_) text += comment + '\n';
-  for (const std::string option : kToleranceOptions) {
-    std::vector<std::string> values = texts(option);
-    if (option == "--mask") values = from_references(values);
+  const bool is_here = versions == Versions::of_this_machine;
+  std::vector<std::string> lines = comments_;
+  if (is_here || !versions_.empty()) {
+    lines.insert(lines.begin(), kVersions + (is_here ? library_versions() : versions_));
+  }
+  for (const ToleranceOption& option : kToleranceOptions) {
+    std::vector<std::string> values = texts(option.name);
+    if (option.name == kMask) {
+      values = relative_to_references(std::move(values));
+      std::erase_if(values, [&](const std::string& mask) {
+        const std::size_t end = mask.rfind(':');
+        return end != std::string::npos && removed.contains(mask.substr(0, end));
+      });
+    }
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
-    std::erase_if(values, [&](const std::string& value) {
-      const std::size_t end = value.rfind(':');
-      return end != std::string::npos && removed.contains(value.substr(0, end));
-    });
     for (const std::string& value : values) {
-      text += is_flag(option) ? option : fmt::format("{}={}", option, value);
-      text += '\n';
+      lines.push_back(option.name + (option.has_value ? "=" + value : ""));
     }
   }
-  OutputFile file(path_.string(), OutputFile::Contents::text);
-  file.write(text);
-  file.finish();
+  const std::string text = fmt::format("{}{}", fmt::join(lines, "\n"), lines.empty() ? "" : "\n");
+  write_file(path_.string(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 void GoldenSettings::read(const std::string& line) {
   if (line.starts_with(kVersions)) {
-    versions_ = line.substr(kVersions.size());
+    versions_ = line.substr(std::string_view(kVersions).size());
     return;
   }
   if (line.starts_with('#')) comments_.push_back(line);
   if (line.empty() || line.starts_with('#')) return;
   const std::size_t end = line.find('=');
   const std::string name = line.substr(0, end);
-  if (!is_tolerance_option(name)) {
-    throw UsageError(fmt::format("golden: '{}' has '{}'; it may have {}, such as --max-delta=3",
-                                 path_.string(), shortened(line),
-                                 fmt::join(kToleranceOptions, ", ")));
+  const auto option = std::ranges::find(kToleranceOptions, name, &ToleranceOption::name);
+  if (option == kToleranceOptions.end()) {
+    throw UsageError(
+        fmt::format("golden: '{}' has '{}'; it may have options such as "
+                    "--max-delta=3; 'piblocks golden check --help' has all",
+                    path_.string(), shortened(line)));
   }
   const bool has_value = end != std::string::npos;
-  if (has_value == is_flag(name)) {
+  if (has_value != option->has_value) {
     throw UsageError(fmt::format("golden: '{}' has '{}'; {} has {}", path_.string(),
                                  shortened(line), name, has_value ? "no value" : "a value"));
   }
   std::string value = has_value ? line.substr(end + 1) : "true";
-  if (name == "--mask") {
-    value = with_path(value, [this](const fs::path& path) {
-      return (path_.parent_path() / path).lexically_normal();
-    });
+  if (name == kMask) {
+    value = with_path(value, [this](const fs::path& path) { return path_.parent_path() / path; });
   } else if (kept_.is_given(name)) {
     throw UsageError(fmt::format("golden: '{}' has {} twice", path_.string(), name));
   }
   kept_.add(name, value);
 }
 
-std::vector<std::string> GoldenSettings::from_references(std::vector<std::string> masks) const {
+std::vector<std::string> GoldenSettings::relative_to_references(
+    std::vector<std::string> masks) const {
   const fs::path folder = path_.parent_path();
   for (std::string& mask : masks) {
     if (mask.find('\n') != std::string::npos) {

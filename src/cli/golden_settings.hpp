@@ -16,11 +16,6 @@ namespace piblocks::cli {
 /// Versions of what paints on this machine, without the fonts that scenes have.
 std::string library_versions();
 
-/// The lines of a text file; none if it is not there. @throws IoError
-std::vector<std::string> lines_of(const std::filesystem::path& path);
-
-bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
-
 /// Options of the command line, and those that are kept beside the references. If the command line
 /// has any but masks, it replaces all that are kept but masks.
 class GoldenSettings {
@@ -36,7 +31,7 @@ class GoldenSettings {
   const std::string& recorded_with() const noexcept { return versions_; }
 
   enum class Versions { of_this_machine, as_before };
-  /// Keeps the options and comments.
+  /// Keeps the options and comments, and versions if they are known.
   /// @param removed  names of pictures whose masks are kept no longer
   void write(Versions versions, const std::set<std::string>& removed = {}) const;
 
@@ -45,7 +40,7 @@ class GoldenSettings {
   std::vector<std::string> texts(const std::string& option) const;
   /// Makes paths relative to the references, so that they hold wherever a command is given.
   /// @throws UsageError if a mask cannot be kept
-  std::vector<std::string> from_references(std::vector<std::string> masks) const;
+  std::vector<std::string> relative_to_references(std::vector<std::string> masks) const;
 
   const Command& given_;
   std::filesystem::path path_;

@@ -36,27 +36,29 @@ Shard parse_part(const std::string& text) {
 double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
 
 /// Under half the size, and many times the time (tests/benchmark/encoders.md).
-EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
+void set_smallest(EncoderSettings& settings) {
+  settings.crf = 18;
+  settings.preset = "slower";
+  settings.encoder = "libx264";
+}
 
 int parse_plays(const std::string& text) { return parse_int(text, 1, kMaxPlays); }
 int parse_start(const std::string& text) { return parse_int(text, 0, kMaxStartNumber); }
 
 EncoderSettings settings_of(const OptionTexts& options) {
-  const std::optional<int> plays = options.value("--plays", parse_plays);
-  const std::optional<int> start_number = options.value("--start-number", parse_start);
-  if (!options.is_given("--smallest")) {
-    return {.crf = options.value("--crf", parse_crf),
-            .preset = options.text("--preset"),
-            .encoder = options.text("--encoder"),
-            .start_number = start_number,
-            .plays = plays};
-  }
+  EncoderSettings settings{.crf = options.value("--crf", parse_crf),
+                           .preset = options.text("--preset"),
+                           .encoder = options.text("--encoder"),
+                           .start_number = options.value("--start-number", parse_start),
+                           .plays = options.value("--plays", parse_plays)};
+  if (!options.is_given("--smallest")) return settings;
   for (const char* option : {"--crf", "--preset", "--encoder"}) {
     if (!options.is_given(option)) continue;
     throw UsageError(
         fmt::format("--smallest chooses the encoder and its settings; leave out {}", option));
   }
-  return smallest_file();
+  set_smallest(settings);
+  return settings;
 }
 
 std::optional<Bundle> bundle_of(const OptionTexts& options) {

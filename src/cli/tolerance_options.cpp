@@ -95,12 +95,12 @@ Tolerance tolerance_of(const OptionTexts& options) {
     tolerance.max_pixels = *options.value("--max-pixels", parse_pixels);
   }
   tolerance.threshold = options.value("--threshold", parse_threshold);
-  tolerance.counts_smoothing = options.is_given("--count-antialiasing");
+  tolerance.counts_antialiasing = options.is_given("--count-antialiasing");
   tolerance.ignores_transparent = options.is_given("--ignore-transparent");
   if (tolerance.threshold && options.is_given("--max-delta")) {
     throw UsageError("--threshold and --max-delta: use one of them");
   }
-  if (tolerance.counts_smoothing && !tolerance.threshold) {
+  if (tolerance.counts_antialiasing && !tolerance.threshold) {
     throw UsageError("--count-antialiasing belongs to --threshold, which is not given");
   }
   return tolerance;

@@ -11,10 +11,21 @@
 
 namespace piblocks::cli {
 
+struct ToleranceOption {
+  const char* name;
+  bool has_value = true;
+};
+
 /// The options that read_tolerance() reads.
-inline constexpr std::array kToleranceOptions = {
-    "--max-delta",  "--threshold",  "--count-antialiasing", "--ignore-transparent",
-    "--max-pixels", "--hard-delta", "--max-window",         "--mask"};
+inline constexpr auto kToleranceOptions =
+    std::to_array<ToleranceOption>({{"--max-delta"},
+                                    {"--threshold"},
+                                    {"--count-antialiasing", false},
+                                    {"--ignore-transparent", false},
+                                    {"--max-pixels"},
+                                    {"--hard-delta"},
+                                    {"--max-window"},
+                                    {"--mask"}});
 
 /// Gives the job its tolerance and its masks. @throws UsageError
 void read_tolerance(const OptionTexts& options, ComparisonJob& job);

@@ -53,4 +53,37 @@ inline std::vector<std::uint8_t> bytes_of_file(const std::filesystem::path& path
   return file.gcount() == std::ssize(bytes) ? bytes : std::vector<std::uint8_t>();
 }
 
+/// A regular file whole. @throws IoError if it is none, is empty, or cannot be read
+inline std::vector<std::uint8_t> whole_file(const std::filesystem::path& path,
+                                            std::string_view operation) {
+  constexpr std::size_t kAny = std::size_t{1} << 40;
+  std::vector<std::uint8_t> bytes = bytes_of_file(path, kAny);
+  if (!bytes.empty()) return bytes;
+  throw IoError(fmt::format("{}: cannot read '{}'", operation, path.string()));
+}
+
+/// The lines of a text file; none if it is not there. @throws IoError
+inline std::vector<std::string> lines_of(const std::filesystem::path& path,
+                                         std::string_view operation) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return {};
+  refuse_pipe(path, operation);
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    if (line.ends_with('\r')) line.pop_back();  // written or checked out on Windows
+    lines.push_back(line);
+  }
+  if (!file.bad() && file.eof()) return lines;
+  throw IoError(fmt::format("{}: cannot read '{}'", operation, path.string()));
+}
+
+/// Whether the path is the folder or in it, links followed. Neither has to be there.
+inline bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path relative = std::filesystem::relative(
+      std::filesystem::absolute(path), std::filesystem::absolute(folder), error);
+  return !error && !relative.empty() && *relative.begin() != "..";
+}
+
 }  // namespace piblocks

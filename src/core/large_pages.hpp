@@ -6,8 +6,8 @@
 
 namespace piblocks {
 
-/// Asks for pages of 2 MiB where there is room for them, so that the system is called once a page
-/// and not 512 times: a tenth of the time in which two pictures are read and compared.
+/// Asks for pages of 2 MiB where there is room for them. The first write then enters the system
+/// once for 2 MiB and not 512 times, which saves a tenth of the time of a comparison.
 void prefer_large_pages(void* begin, std::size_t bytes) noexcept;
 
 }  // namespace piblocks

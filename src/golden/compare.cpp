@@ -261,7 +261,7 @@ class Counter {
         max_delta_(levels_of(tolerance.max_delta, reference.max_level)),
         is_off_(static_cast<std::size_t>(reference.width_px)) {
     if (tolerance.threshold) {
-      perceptual_.emplace(reference, actual, *tolerance.threshold, !tolerance.counts_smoothing);
+      perceptual_.emplace(reference, actual, *tolerance.threshold, !tolerance.counts_antialiasing);
     }
     result_.max_level = reference.max_level;
   }
@@ -305,10 +305,13 @@ class Counter {
   template <typename Level>
   std::int64_t mark_off(int y, const std::vector<Level>& deltas) {
     const auto max_delta = static_cast<Level>(max_delta_);
-    const auto is_off = [&](Level delta) { return delta > max_delta; };
-    if (!perceptual_) std::ranges::transform(deltas, is_off_.begin(), is_off);
-    for (std::size_t x = 0; perceptual_ && x < deltas.size(); ++x) {
-      is_off_[x] = deltas[x] != 0 && perceptual_->is_off(static_cast<int>(x), y);
+    if (perceptual_) {
+      for (std::size_t x = 0; x < deltas.size(); ++x) {
+        is_off_[x] = deltas[x] != 0 && perceptual_->is_off(static_cast<int>(x), y);
+      }
+    } else {
+      std::ranges::transform(deltas, is_off_.begin(),
+                             [&](Level delta) { return delta > max_delta; });
     }
     return std::accumulate(is_off_.begin(), is_off_.end(), 0);
   }

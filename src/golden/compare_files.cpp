@@ -37,7 +37,7 @@ class PairTaker {
 
   void take(ComparedPair pair) {
     is_compared_ |= pair.is_compared;
-    for (const std::size_t mask : pair.masks) hides_[mask] = true;
+    for (const std::size_t mask : pair.mask_indices) hides_[mask] = true;
     rows_.take(std::move(pair.row), pair.has_reference, pair.has_actual);
   }
   /// @throws UsageError if a mask lies outside of every picture.

@@ -164,7 +164,7 @@ std::string tolerance_text(const ComparisonJob& job) {
   std::string text = "Every sample must be equal";
   if (tolerance.threshold) {
     text = fmt::format("Pixels must look alike, by a threshold of {}{}", *tolerance.threshold,
-                       tolerance.counts_smoothing ? "" : ", or be those of smoothed edges");
+                       tolerance.counts_antialiasing ? "" : ", or be those of smoothed edges");
   } else if (tolerance.max_delta > 0) {
     text = fmt::format("Samples may differ by up to {} of 255", to_double(tolerance.max_delta));
   }

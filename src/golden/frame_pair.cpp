@@ -220,7 +220,7 @@ bool fits_size(const Mask& mask, const PictureSize& size, const std::string& nam
 std::vector<PixelRect> masks_of(const ComparisonJob& job, const PictureSize& size,
                                 ComparedPair& result) {
   std::vector<PixelRect> rects;
-  std::erase_if(result.masks, [&](std::size_t index) {
+  std::erase_if(result.mask_indices, [&](std::size_t index) {
     const Mask& mask = job.masks[index];
     if (!fits_size(mask, size, result.row.name)) return true;
     rects.insert(rects.end(), mask.rects.begin(), mask.rects.end());
@@ -288,7 +288,7 @@ ComparedPair compare_frames(const Fetched& reference, const Fetched& actual,
   ComparedPair result{
       .row = {}, .has_reference = reference.is_there, .has_actual = actual.is_there};
   for (std::size_t i = 0; i < job.masks.size(); ++i) {
-    if (concerns(job.masks[i], reference, actual)) result.masks.push_back(i);
+    if (concerns(job.masks[i], reference, actual)) result.mask_indices.push_back(i);
   }
   FrameComparison& row = result.row;
   row.name = row_name(reference, actual);

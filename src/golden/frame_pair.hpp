@@ -43,7 +43,7 @@ struct ComparedPair {
   bool has_actual = false;
   bool is_compared = false;
   /// Of the job, that hide a part of the pictures; all that concern them if they are not compared.
-  std::vector<std::size_t> masks = {};
+  std::vector<std::size_t> mask_indices = {};
   std::size_t held_bytes = 0;  ///< by the functions, about
 };
 

@@ -14,8 +14,6 @@
 namespace piblocks {
 namespace {
 
-constexpr int kAcross = 32;
-constexpr int kDown = 18;
 constexpr int kColumns = 640;            // of pixels that are read, at least
 constexpr std::size_t kMostFrames = 64;  // that are looked at
 constexpr int kMostShift = 24;           // so that most of them are compared
@@ -24,8 +22,8 @@ constexpr double kTimesCloser = 4;  // than by any other shift, or the speed is 
 
 }  // namespace
 
-FrameShift::Impression FrameShift::impression_of(const Image& image) {
-  Impression sums = {};
+FrameShift::Thumbnail FrameShift::thumbnail_of(const Image& image) {
+  Thumbnail sums = {};
   std::array<float, std::size_t{kAcross}* kDown> counts = {};
   const int step = std::max(1, image.width_px / kColumns);
   for (int y = 0; y < image.height_px; y += step) {
@@ -48,9 +46,9 @@ void FrameShift::add(std::int64_t number, const FrameComparison& frame) {
     if (frame.outcome != Outcome::different) return;
     first_ = number;
   }
-  const auto take = [](const std::function<Image()>& picture, std::vector<Impression>& to) {
+  const auto take = [](const std::function<Image()>& picture, std::vector<Thumbnail>& to) {
     if (!picture || to.size() == kMostFrames) return;
-    if (const Image image = picture(); !image.words.empty()) to.push_back(impression_of(image));
+    if (const Image image = picture(); !image.words.empty()) to.push_back(thumbnail_of(image));
   };
   take(frame.reference, reference_);
   take(frame.actual, actual_);
@@ -65,7 +63,7 @@ double FrameShift::distance(int frames_later) const {
     sum += std::transform_reduce(a[i].begin(), a[i].end(), b[i].begin(), 0.0, std::plus<>(),
                                  [](float x, float y) { return double((x - y) * (x - y)); });
   }
-  return sum / static_cast<double>(frames) / static_cast<double>(Impression().size());
+  return sum / static_cast<double>(frames) / static_cast<double>(Thumbnail().size());
 }
 
 std::string FrameShift::text() const {

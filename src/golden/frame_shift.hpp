@@ -20,16 +20,18 @@ class FrameShift {
   std::string text() const;
 
  private:
+  static constexpr int kAcross = 32;
+  static constexpr int kDown = 18;
   /// The mean red, green and blue of its parts.
-  using Impression = std::array<float, std::size_t{3} * 32 * 18>;
+  using Thumbnail = std::array<float, std::size_t{3} * kAcross * kDown>;
 
-  static Impression impression_of(const Image& image);
+  static Thumbnail thumbnail_of(const Image& image);
   /// The mean square difference of the frames that both sides have if the actual ones come later.
   double distance(int frames_later) const;
 
   std::int64_t first_ = 0;
-  std::vector<Impression> reference_;
-  std::vector<Impression> actual_;
+  std::vector<Thumbnail> reference_;
+  std::vector<Thumbnail> actual_;
 };
 
 }  // namespace piblocks

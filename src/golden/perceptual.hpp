@@ -41,18 +41,18 @@ inline double perceived_difference(const Yiq& a, const Yiq& b) {
 template <typename Rows>
 class Perceptual {
  public:
-  Perceptual(const Rows& reference, const Rows& actual, double threshold, bool ignores_smoothing)
+  Perceptual(const Rows& reference, const Rows& actual, double threshold, bool ignores_antialiasing)
       : reference_(reference),
         actual_(actual),
         most_(35215 * threshold * threshold),
-        ignores_smoothing_(ignores_smoothing) {}
+        ignores_antialiasing_(ignores_antialiasing) {}
 
   /// Whether a pixel looks different, and is an ignored smoothed edge in neither picture.
   bool is_off(int x, int y) const {
     const Yiq a = yiq_of(levels_at(reference_, x, y));
     const Yiq b = yiq_of(levels_at(actual_, x, y));
     if (perceived_difference(a, b) <= most_) return false;
-    return !ignores_smoothing_ ||
+    return !ignores_antialiasing_ ||
            (!is_smoothed(reference_, actual_, x, y) && !is_smoothed(actual_, reference_, x, y));
   }
 
@@ -125,7 +125,7 @@ class Perceptual {
   const Rows& reference_;
   const Rows& actual_;
   double most_;
-  bool ignores_smoothing_;
+  bool ignores_antialiasing_;
 };
 
 }  // namespace piblocks

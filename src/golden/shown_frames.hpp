@@ -76,12 +76,12 @@ class ShownLines {
     const std::string line = lines_.takes(frame.outcome) ? printable(row_text(frame)) : "";
     left_ += lines_.add(frame.outcome, line) ? 1 : 0;
   }
-  /// Calls use(outcome, line); the last line says how many others there are, if there are any.
   template <typename Use>
   void for_each(const Use& use) const {
     lines_.for_each(use);
-    if (left_ > 0) use(Outcome::accepted, fmt::format("… and {} more", left_));
   }
+  /// How many others there are; empty if there are none.
+  std::string rest() const { return left_ > 0 ? fmt::format("… and {} more", left_) : ""; }
 
  private:
   ShownFrames<std::string> lines_;

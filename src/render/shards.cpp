@@ -92,10 +92,11 @@ Rational rational(const ShardFile& part, const std::string& name) {
   }
 }
 
-/// @throws UsageError unless the value is a whole number from 1 to `high`.
-std::int64_t number(const ShardFile& part, const std::string& name, std::int64_t high) {
+/// @throws UsageError unless the value is a whole number from `low` to `high`.
+std::int64_t number(const ShardFile& part, const std::string& name, std::int64_t high,
+                    std::int64_t low = 1) {
   const Rational value = rational(part, name);
-  if (value.get_den() == 1 && value >= 1 && value <= to_integer(high))
+  if (value.get_den() == 1 && value >= to_integer(low) && value <= to_integer(high))
     return value.get_num().get_si();
   throw_invalid(part, name);
 }
@@ -231,7 +232,7 @@ JobDescription read_description(const ShardFile& part) {
   job.encoder.preset = setting(part, "preset");
   job.encoder.encoder = setting(part, "encoder");
   if (setting(part, "start-number")) {
-    job.encoder.start_number = int(number(part, "start-number", kMaxStartNumber));
+    job.encoder.start_number = int(number(part, "start-number", kMaxStartNumber, 0));
   }
   if (setting(part, "plays")) job.encoder.plays = int(number(part, "plays", kMaxPlays));
   job.signature = value_of(part, "output");

@@ -262,6 +262,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"--smallest", "--crf", "20"}), "--smallest chooses the encoder and its"},
         BadInput{render({"--smallest", "--encoder", "builtin"}), "leave out --encoder"},
         BadInput{render({"--encoder", "builtin", "--crf", "20"}), "'builtin' has no crf"},
+        BadInput{render({"--smallest", "--start-number", "5"}), "'a.mp4' has no numbers"},
+        BadInput{render({"--smallest", "--plays", "5"}), "'a.mp4' does not say how often it plays"},
         BadInput{{"render", "--smallest", "-o", "a.y4m"}, "'a.y4m' has no use for crf"},
         BadInput{render({"--preset", "warp"}), "no preset 'warp'; use one of: ultrafast"},
         BadInput{render({"--encoder", "nope"}), "cannot use encoder 'nope'; use one of: builtin"},

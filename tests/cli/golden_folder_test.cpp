@@ -263,6 +263,19 @@ TEST_F(GoldenFolderTest, PicturesMayHaveAnyName) {
   }
 }
 
+/// Also before there is one of them.
+TEST_F(GoldenFolderTest, ReferencesAreNotMadeAmongThePictures) {
+  write_grey("out/a.png", 100);
+  const std::string whole = folder_ / "out";
+  for (const auto& [pictures, references] : {std::pair<std::string, std::string>{".", "refs"},
+                                             {whole, "out/refs"},
+                                             {"out", whole + "/x"}}) {
+    expect_refusal({"golden", "record", pictures, "--against", references},
+                   "must not contain each other");
+  }
+  EXPECT_EQ(entries(), (Names{"out", "out/a.png"}));
+}
+
 TEST_F(GoldenFolderTest, FoldersInEachOtherAreRefused) {
   record();
   fs::create_directory_symlink("refs", folder_ / "link");

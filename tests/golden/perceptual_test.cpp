@@ -54,8 +54,8 @@ double delta_of(std::uint32_t one, std::uint32_t other) {
          0.1957 * std::pow(weighted(change, kQ), 2);
 }
 
-Tolerance looks_alike(double threshold, bool counts_smoothing = true) {
-  return {.threshold = threshold, .counts_smoothing = counts_smoothing};
+Tolerance looks_alike(double threshold, bool counts_antialiasing = true) {
+  return {.threshold = threshold, .counts_antialiasing = counts_antialiasing};
 }
 
 std::int64_t off(const Image& a, const Image& b, const Tolerance& tolerance) {

@@ -26,7 +26,7 @@ Pair random_pair(Random& random) {
 Tolerance random_tolerance(Random& random) {
   Tolerance tolerance{.max_delta = Rational(long(random.integer(0, 100)))};
   if (random.integer(0, 1) == 0) tolerance.threshold = random.uniform(0, 0.4);
-  tolerance.counts_smoothing = random.integer(0, 1) == 0;
+  tolerance.counts_antialiasing = random.integer(0, 1) == 0;
   tolerance.ignores_transparent = random.integer(0, 1) == 0;
   return tolerance;
 }

@@ -285,7 +285,7 @@ def test_masks():
     outside = np.zeros((20, 30), bool)
     outside[5:9, 3:7] = True
     Path("mask.png").write_bytes(png_of_piblocks(255 * outside.astype(np.uint8)))
-    for masks in [(3, 5, 4, 4), [(3, 5, 4, 4)], "4x4+3+5", ["4x4+3+5"], outside, [outside],
+    for masks in [(3, 5, 4, 4), [3, 5, 4, 4], [(3, 5, 4, 4)], "4x4+3+5", ["4x4+3+5"], outside, [outside],
                   255 * outside.astype(np.uint8), "mask.png", Path("mask.png"),
                   [Path("mask.png").read_bytes()], [(3, 5, 4, 2), np.array([3, 7, 4, 2]).tolist()]]:
         result = compare(picture, other, masks=masks)

@@ -80,7 +80,7 @@ def test_tolerances_that_make_no_sense(tolerance, message):
     ({"max_delta": [None]}, "max_delta: must be a number"),
     ({"ignore_transparent": 1}, "ignore_transparent: must be True or False"),
     ({"masks": 3}, "masks: must be a list of masks, not int"),
-    ({"masks": [3]}, r"masks\[0\]: must be an array"),
+    ({"masks": [None]}, r"masks\[0\]: must be an array"),
     ({"tolerance": 3}, "unexpected keyword argument 'tolerance'"),
 ])
 def test_wrong_types_of_tolerances(tolerance, message):

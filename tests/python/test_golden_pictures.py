@@ -220,6 +220,32 @@ def test_it(level):
     assert "golden/same' are those of test_plots.py::test_it[0] too" in result.stdout
 
 
+def test_a_marked_test_and_its_fixture_do_not_share_a_reference():
+    text = """
+import numpy as np, pytest
+
+@pytest.mark.piblocks_golden
+def test_it(piblocks_golden):
+    piblocks_golden(np.zeros((4, 5), np.uint8))
+    return np.ones((4, 5), np.uint8)
+"""
+    failed = run("--piblocks-golden-approve", text=text)
+    assert "are those of test_plots.py::test_it too" in failed.stdout
+    assert "give test_plots.py::test_it, what it returns a name" in failed.stdout
+
+
+@pytest.mark.parametrize("made", ["'nothing.png'", "b'no picture'", "bytearray(b'no picture')"])
+def test_what_a_marked_test_returns_is_read_without_options(made):
+    text = f"""
+import pytest
+
+@pytest.mark.piblocks_golden
+def test_it():
+    return {made}
+"""
+    assert "1 failed" in run(text=text).stdout
+
+
 def test_a_reference_may_be_a_link_and_keeps_its_permissions():
     run("--piblocks-golden-record")
     name = "golden/test_plots-test_array-1.png"

@@ -15,8 +15,6 @@ namespace {
 
 constexpr int kChannels = 2;
 
-bool is_pcm(const AVCodec& codec) { return codec.id == AV_CODEC_ID_PCM_S24LE; }
-
 const AVCodec* find(const SoundCodec& codec) {
   const AVCodec* const found = avcodec_find_encoder_by_name(codec.name);
   if (found != nullptr) return found;
@@ -97,16 +95,13 @@ SoundEncoder::SoundEncoder(const SoundCodec& codec, const SoundFormat& format)
   const AvCodecContextPtr context = open();
   check_av(avcodec_parameters_from_context(parameters_.get(), context.get()), "describe",
            codec_->name);
-  if (is_pcm(*codec_)) parameters_->frame_size = kPcmPacket_pairs;
+  if (settings_.is_pcm) parameters_->frame_size = kPcmPacket_pairs;
 }
 
 AvCodecContextPtr SoundEncoder::open() const {
   auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec_), codec_->name);
   context->sample_rate = format_.rate_hz;
-  // libopus takes interleaved samples, AAC one plane for each channel.
-  context->sample_fmt = is_pcm(*codec_)                  ? AV_SAMPLE_FMT_S32
-                        : codec_->id == AV_CODEC_ID_OPUS ? AV_SAMPLE_FMT_FLT
-                                                         : AV_SAMPLE_FMT_FLTP;
+  context->sample_fmt = settings_.format;
   av_channel_layout_default(&context->ch_layout, kChannels);
   context->bit_rate = settings_.bit_rate;
   if (settings_.bit_rate == 0) {
@@ -128,7 +123,7 @@ std::string SoundEncoder::signature() const {
 }
 
 std::unique_ptr<PacketSource> SoundEncoder::encode(SampleSource& samples) const {
-  if (is_pcm(*codec_)) return pcm_packets(samples);
+  if (settings_.is_pcm) return pcm_packets(samples);
   return std::make_unique<SoundPackets>(open(), samples);
 }
 

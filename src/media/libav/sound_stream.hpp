@@ -17,6 +17,8 @@ struct SoundCodec {
   double quality = 0;            ///< as ffmpeg's -q:a has it, of an encoder without bit_rate
   const char* option = nullptr;  ///< one of the encoder's own, and its value
   const char* value = nullptr;
+  AVSampleFormat format = AV_SAMPLE_FMT_FLTP;  ///< of the samples that it takes
+  bool is_pcm = false;                         ///< whether pcm_packets() makes its packets
 };
 
 /// For MP4 and MOV. The coder takes half the default one's time, and is as true to dense clacks.
@@ -25,9 +27,11 @@ struct SoundCodec {
 inline constexpr SoundCodec kAac = {
     .name = "aac", .quality = 2.5, .option = "aac_coder", .value = "fast"};
 /// For MOV of ProRes: editors on Linux play no AAC.
-inline constexpr SoundCodec kPcm = {.name = "pcm_s24le"};
+inline constexpr SoundCodec kPcm = {
+    .name = "pcm_s24le", .format = AV_SAMPLE_FMT_S32, .is_pcm = true};
 /// For WebM.
-inline constexpr SoundCodec kOpus = {.name = "libopus", .bit_rate = 160'000};
+inline constexpr SoundCodec kOpus = {
+    .name = "libopus", .bit_rate = 160'000, .format = AV_SAMPLE_FMT_FLT};
 
 /// An encoder of sound that exists and opens.
 class SoundEncoder {

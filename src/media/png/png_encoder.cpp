@@ -151,7 +151,7 @@ class PngSequence final : public FrameSink {
       : pattern_(std::move(pattern)),
         overwrite_(overwrite),
         first_(start_number.value_or(1)),
-        is_part_(start_number.has_value()),
+        leaves_later_(start_number.has_value()),
         files_(pattern_.folder(), pattern_.label()) {
     check_names(frames);
   }
@@ -166,7 +166,7 @@ class PngSequence final : public FrameSink {
   void finish() override {
     check_names(counter_.frames());  // files may have come meanwhile
     // Pictures of an earlier, longer sequence would look like the end of this one.
-    for (auto number = next_number(); !is_part_ && is_file(path_of(number)); ++number) {
+    for (auto number = next_number(); !leaves_later_ && is_file(path_of(number)); ++number) {
       if (!has_png_mark(path_of(number), PngMark::sequence)) {
         ++left_;
         continue;
@@ -219,7 +219,7 @@ class PngSequence final : public FrameSink {
   FramePattern pattern_;
   bool overwrite_;
   std::int64_t first_;
-  bool is_part_;  // of a longer sequence
+  bool leaves_later_;  // pictures, of a longer sequence
   FileSet files_;
   FrameCounter counter_;
   std::int64_t foreign_ = 0;  // files that are replaced and were no pictures of a sequence

@@ -55,7 +55,7 @@ ComparisonJob job_of(const Picture& reference, const Picture& actual,
                      const std::vector<MaskSource>& masks) {
   ComparisonJob job{reference.has_path() ? *reference.path() : "the reference",
                     actual.has_path() ? *actual.path() : "the actual picture"};
-  BoundOptions given(options);
+  cli::OptionMap given(options);
   for (const MaskSource& mask : masks) {
     if (const auto* text = std::get_if<std::string>(&mask)) given.add("--mask", *text);
   }
@@ -102,6 +102,7 @@ class Comparison {
     if (pair_) return {line_of(*pair_)};
     std::vector<std::string> lines;
     lines_.for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
+    if (const std::string rest = lines_.rest(); !rest.empty()) lines.push_back(rest);
     lines.push_back(printable(summary_text(job_, result_)));
     return lines;
   }
@@ -247,35 +248,28 @@ py::bytes bytes_object(ByteSpan bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// What make() returns.
+template <typename Make>
+auto without_gil(const Make& make) {
+  const WithoutGil released;
+  return make();
+}
+
 py::dict pictures_of_pair(const Comparison& comparison) {
-  std::vector<FramePicture> pictures;
-  {
-    const WithoutGil released;
-    pictures = comparison.pictures();
-  }
   py::dict files;
-  for (const FramePicture& picture : pictures) files[picture.kind] = bytes_object(picture.png);
+  for (const FramePicture& picture : without_gil([&] { return comparison.pictures(); }))
+    files[picture.kind] = bytes_object(picture.png);
   return files;
 }
 
 py::tuple deltas_of(const Comparison& comparison) {
-  std::vector<std::uint8_t> deltas;
-  int width_px = 0;
-  {
-    const WithoutGil released;
-    deltas = comparison.deltas();
-    width_px = comparison.width_px();
-  }
+  const auto deltas = without_gil([&] { return comparison.deltas(); });
+  const int width_px = without_gil([&] { return comparison.width_px(); });
   return py::make_tuple(width_px, bytes_object(deltas));
 }
 
 py::bytes png_of(const Picture& picture) {
-  Bytes png;
-  {
-    const WithoutGil released;
-    png = picture.png();
-  }
-  return bytes_object(png);
+  return bytes_object(without_gil([&] { return picture.png(); }));
 }
 
 }  // namespace
@@ -283,13 +277,8 @@ py::bytes png_of(const Picture& picture) {
 void bind_compare(py::module_& module) {
   py::class_<Picture, std::shared_ptr<Picture>>(module, "Picture", "One side of a comparison.")
       .def("png", &png_of, "A PNG file. Raises IoError if the one that was given cannot be read.")
-      .def(
-          "write",
-          [](const Picture& picture, const std::string& output) {
-            const WithoutGil released;
-            write_file(output, picture.png());
-          },
-          py::arg("output"), "The same to a file.");
+      .def("write", &Picture::write, py::call_guard<WithoutGil>(), py::arg("output"),
+           "The same to a file.");
   module.def("picture_of_samples", &Picture::of_samples, py::arg("samples"),
              "Of a contiguous array: uint8 or uint16; height x width, perhaps x 3 or 4.");
   module.def("picture_of_png", &Picture::of_png, py::arg("png"), "Of a PNG file in memory.");
@@ -304,20 +293,10 @@ void bind_compare(py::module_& module) {
       .def_property_readonly("rows", &rows_of, "Fields of every row.")
       .def("pictures", &pictures_of_pair, "PNG files of a pair: expected, actual, diff.")
       .def("deltas", &deltas_of, "Width, and a byte for each pixel of a pair: 255 is the range.")
-      .def(
-          "save",
-          [](const Comparison& comparison, const std::string& output) {
-            const WithoutGil released;
-            comparison.save(output);
-          },
-          py::arg("output"), "Writes the difference picture of a pair.")
-      .def(
-          "save_pictures",
-          [](const Comparison& comparison, const std::string& folder) {
-            const WithoutGil released;
-            comparison.save_pictures(folder);
-          },
-          py::arg("folder"), "Pictures of a pair that is not accepted; removes earlier ones.")
+      .def("save", &Comparison::save, py::call_guard<WithoutGil>(), py::arg("output"),
+           "Writes the difference picture of a pair.")
+      .def("save_pictures", &Comparison::save_pictures, py::call_guard<WithoutGil>(),
+           py::arg("folder"), "Pictures of a pair that is not accepted; removes earlier ones.")
       .def(
           "report",
           [](const Comparison& comparison, const std::string& page) {

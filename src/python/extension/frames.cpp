@@ -49,7 +49,7 @@ class Pictures {
   /// The picture of 'piblocks still'.
   Frame still(const std::string& at) {
     const WithoutGil released;
-    const Instant instant = *BoundOptions({{"t", at}}).value("t", parse_instant);
+    const Instant instant = *cli::OptionMap({{"t", at}}).value("t", parse_instant);
     return {pool_->paint(list_at(instant))};
   }
   /// Simulation time of a frame of a single scene.

@@ -53,8 +53,8 @@ Shape shape_of(const py::buffer_info& info) {
                     shape[0] * shape[1] <= kMaxFrame_px;
   if (!fits) {
     throw UsageError(fmt::format(
-        "compare: cannot take a picture of {}x{} pixels: a side has 1 to {}, and all are at most "
-        "{}; cut it into parts",
+        "compare: cannot take a picture of {}x{} pixels: each side must have 1 to {} pixels, and "
+        "the whole picture at most {}; cut it into parts",
         shape[1], shape[0], kMaxSide_px, kMaxFrame_px));
   }
   return {int(shape[0]), int(shape[1]), has_channels ? std::size_t(shape[2]) : 1};
@@ -122,17 +122,14 @@ Fetched Picture::fetch(const std::string& role) const {
 }
 
 Bytes Picture::png() const {
-  const Fetched fetched = fetch("the picture");
-  if (!fetched.problem.empty()) throw IoError(fetched.problem);
-  if (const auto* png = std::get_if<Bytes>(&content_)) return *png;
   if (const auto* samples = std::get_if<AnyImage>(&content_)) {
     const auto* deep = std::get_if<DeepImage>(samples);
     return deep != nullptr ? encode_png_samples(*deep) : encode_png_samples(flattened(*samples));
   }
-  constexpr std::size_t kMost_bytes = std::size_t{1} << 40;
-  Bytes bytes = bytes_of_file(*path(), kMost_bytes);
-  if (bytes.empty()) throw IoError(fmt::format("compare: cannot read '{}'", *path()));
-  return bytes;
+  const Fetched fetched = fetch("the picture");
+  if (!fetched.problem.empty()) throw IoError(fetched.problem);
+  if (const auto* png = std::get_if<Bytes>(&content_)) return *png;
+  return whole_file(*path(), "compare");
 }
 
 }  // namespace piblocks::python

@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "core/output_file.hpp"
 #include "golden/frame_pair.hpp"
 #include "media/output/bytes.hpp"
 #include "media/pixels/frame_reader.hpp"
@@ -34,6 +35,7 @@ class Picture {
   /// A PNG file: that which was given, or the samples as one.
   /// @throws IoError if the file that was given cannot be read, or is no PNG file
   Bytes png() const;
+  void write(const std::string& output) const { write_file(output, png()); }
 
  private:
   using Content = std::variant<std::string, Bytes, AnyImage>;

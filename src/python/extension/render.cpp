@@ -27,7 +27,7 @@ namespace py = pybind11;
 using Options = std::map<std::string, std::string>;
 
 RenderJob make_job(const BoundScript& bound, const std::string& output,
-                   const BoundOptions& options) {
+                   const cli::OptionMap& options) {
   refuse_standard_output(output, "render");
   RenderJob job = cli::job_of(options, output, [&](const auto& defaults, const auto& origin) {
     return defaults.empty() ? bound.script : bound.recipe.script(defaults, origin);
@@ -55,7 +55,7 @@ StepTimes times_of(const Profile& profile) {
 /// @returns what was written, frames, notes, and the profile if it was asked for.
 py::tuple render_film(const BoundScript& bound, const std::string& output, const Options& texts,
                       const py::object& progress) {
-  const BoundOptions options(texts);
+  const cli::OptionMap options(texts);
   std::optional<RenderJob> job;
   Rendered rendered;
   const bool is_told = !progress.is_none();
@@ -85,7 +85,7 @@ void check_still(const BoundScript& bound, const std::string& output, const char
 }
 
 Instant instant_of(const std::string& text) {
-  return *BoundOptions({{"--at", text}}).value("--at", parse_instant);
+  return *cli::OptionMap({{"--at", text}}).value("--at", parse_instant);
 }
 
 void still_file(const BoundScript& bound, const std::string& at, const std::string& output) {
@@ -117,7 +117,7 @@ void sheet_file(const BoundScript& bound, const std::string& output, const Optio
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     const Scene& scene = scene_of(bound, "sheet");
     check_still(bound, output, "sheet");
-    render_sheet(scene, cli::sheet_instants(BoundOptions(texts)), output, {}, stop);
+    render_sheet(scene, cli::sheet_instants(cli::OptionMap(texts)), output, {}, stop);
   });
 }
 

@@ -34,7 +34,7 @@ class BoundRun {
   BoundRun(const BoundScript& script, const char* operation, const Options& texts)
       : scene_(scene_of(script, operation)) {
     const WithoutGil released;
-    log_ = cli::make_log(scene_, BoundOptions(texts));
+    log_ = cli::make_log(scene_, cli::OptionMap(texts));
   }
   const Scene& scene() const { return scene_; }
   const Log& log() const { return *log_; }
@@ -57,7 +57,7 @@ py::tuple select(const BoundRun& run, const Options& options) {
   cli::Rows rows;
   {
     const WithoutGil released;
-    rows = cli::select_rows(BoundOptions(options), run.log());
+    rows = cli::select_rows(cli::OptionMap(options), run.log());
     require_certain(run.scene(), run.log(), rows.until);
   }
   return py::make_tuple(hexadecimal(rows.first), hexadecimal(rows.count()));
@@ -81,7 +81,7 @@ void fill_log(const BoundRun& run, const std::string& first_text, const py::buff
 using Times = std::variant<std::vector<std::string>, py::buffer>;
 
 Rational time_of_text(const std::string& text, const Log& log) {
-  return time_of(*BoundOptions({{"t", text}}).value("t", parse_instant), log);
+  return time_of(*cli::OptionMap({{"t", text}}).value("t", parse_instant), log);
 }
 
 Rational time_of_number(double value, const Log& log) {

@@ -48,8 +48,6 @@ struct BoundScript {
   Script script;
 };
 
-using BoundOptions = cli::OptionMap;
-
 /// The one scene of a script.
 /// @param operation  named in messages. @throws UsageError if the script is a storyboard.
 const Scene& scene_of(const BoundScript& script, const char* operation);

@@ -100,7 +100,8 @@ class Comparison(GoldenResult):
         self._pair().save(path("file", file))
 
     def report(self, file: Union[str, os.PathLike[str]]) -> None:
-        """Writes an HTML page that lays the pictures over each other. Files are compared again.
+        """Writes an HTML page that lays the pictures over each other. Folders and videos are
+        compared again.
 
         :raises UsageError, IoError: as ``save()``.
         """
@@ -119,9 +120,9 @@ class Comparison(GoldenResult):
 def _masks(given: Any) -> list[Union[bytes, _piblocks.Picture]]:
     if given is None:
         return []
-    is_tuple = isinstance(given, tuple) and len(given) > 0
-    is_rectangle = is_tuple and all(isinstance(one, Integral) for one in given)
-    if is_rectangle or isinstance(given, (str, bytes, os.PathLike)) or is_picture(given):
+    has_items = isinstance(given, (tuple, list)) and len(given) > 0
+    is_rectangle = has_items and all(isinstance(one, Integral) for one in given)
+    if is_rectangle or is_picture(given):
         given = [given]
     if not isinstance(given, Iterable):
         raise TypeError(f"masks: must be a list of masks, not {type(given).__name__}")
@@ -151,7 +152,7 @@ TOLERANCE = ("max_delta", "threshold", "count_antialiasing", "ignore_transparent
 _FLAGS = ("count_antialiasing", "ignore_transparent")
 
 
-def judge(
+def compare_pictures(
     reference: _piblocks.Picture, actual: _piblocks.Picture, **tolerance: Any
 ) -> Comparison:
     """compare() of pictures that the extension has."""
@@ -210,7 +211,8 @@ def compare(
     :raises UsageError: if a tolerance, a mask or an array makes no sense. :raises IoError: if a
         picture cannot be read. :raises TypeError: for any other value.
     """
-    return judge(picture("reference", reference), picture("actual", actual), max_delta=max_delta,
-                 threshold=threshold, count_antialiasing=count_antialiasing,
-                 ignore_transparent=ignore_transparent, max_pixels=max_pixels,
-                 hard_delta=hard_delta, max_window=max_window, masks=masks)
+    return compare_pictures(
+        picture("reference", reference), picture("actual", actual), max_delta=max_delta,
+        threshold=threshold, count_antialiasing=count_antialiasing,
+        ignore_transparent=ignore_transparent, max_pixels=max_pixels, hard_delta=hard_delta,
+        max_window=max_window, masks=masks)

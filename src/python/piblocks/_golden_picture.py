@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from . import _piblocks
-from ._compare import Comparison, judge
+from ._compare import Comparison, compare_pictures
 from ._errors import Error, IoError
 from ._picture import picture
 from ._references import claim, labelled, place, results_folder, shown
@@ -19,22 +19,24 @@ REMEDY = ("pytest --piblocks-golden-record keeps new references, --piblocks-gold
           "them")
 
 
-def hold(
-    item: pytest.Function, action: str | None, file: Path, given: Any, tolerance: dict[str, Any]
+def check_or_keep(
+    item: pytest.Function, action: str | None, file: Path, given: Any, tolerance: dict[str, Any],
+    what: str = "",
 ) -> None:
     """Compares a picture with its reference, or keeps it as such.
 
     :param action: "check", "record", "approve"; without one the picture is only read.
+    :param what: which of the test's pictures it is, for messages.
     """
     made = picture("picture", given)
     if isinstance(given, (str, os.PathLike)):  # no folder, no video
         made = _piblocks.picture_of_png(made.png())
     if action is not None:
-        claim(item, str(file))
+        claim(item, str(file), what)
     if action == "check" or action == "record" and file.exists():
         _check(item, file, made, tolerance)
         return
-    judge(made, made, **tolerance)  # it can be read, and the tolerance makes sense
+    compare_pictures(made, made, **tolerance)  # it can be read, and the tolerance makes sense
     if action is not None:
         _keep(item, file, made, tolerance)
 
@@ -51,7 +53,7 @@ def _text(result: Comparison) -> str:
 
 
 def _compared(file: Path, made: _piblocks.Picture, tolerance: dict[str, Any]) -> Comparison:
-    return judge(_piblocks.picture_of_path(os.fsencode(file)), made, **tolerance)
+    return compare_pictures(_piblocks.picture_of_path(os.fsencode(file)), made, **tolerance)
 
 
 def _keep(
@@ -136,4 +138,4 @@ class GoldenPictures:
                         pytrace=False)
         self._labels.add(label)
         file = folder / f"{labelled(test, label) if label else test}.png"
-        hold(self._item, self._action, file, picture, tolerance)
+        check_or_keep(self._item, self._action, file, picture, tolerance)

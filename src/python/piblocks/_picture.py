@@ -59,11 +59,11 @@ def _is_pillow(given: Any) -> bool:
 
 
 def is_picture(given: Any) -> bool:
-    """Whether picture() takes objects of this kind, other than paths and bytes."""
-    return _is_pillow(given) or any(
-        hasattr(given, name)
-        for name in ("savefig", "buffer_rgba", "__array__", "__array_interface__")
-    )
+    """Whether picture() takes objects of this kind."""
+    if isinstance(given, (str, os.PathLike, bytes, bytearray, memoryview)) or _is_pillow(given):
+        return True
+    known = ("savefig", "buffer_rgba", "__array__", "__array_interface__")
+    return any(hasattr(given, name) for name in known)
 
 
 def picture(name: str, given: Any) -> _piblocks.Picture:
@@ -87,7 +87,7 @@ def picture(name: str, given: Any) -> _piblocks.Picture:
         return _of_array(name, np.asarray(given.buffer_rgba()))
     if _is_pillow(given):
         return _of_pillow(name, given)
-    if isinstance(given, memoryview) or is_picture(given):
+    if is_picture(given):
         return _of_array(name, np.asarray(given))
     raise TypeError(f"{name}: {_MUST_BE}, not {type(given).__name__}")
 

@@ -62,13 +62,14 @@ def place(item: pytest.Function, given: Any) -> tuple[Path, str]:
     return folder, _reference_name(item, folder)
 
 
-def claim(item: pytest.Item, path: str) -> None:
-    """Fails if the references of another test have this path."""
-    first = item.config.stash[CLAIMS].setdefault(path, item.nodeid)
-    if first != item.nodeid:
+def claim(item: pytest.Item, path: str, what: str = "") -> None:
+    """Fails if the references of another test, or of something else in this test, have this path."""
+    owner = item.nodeid + what
+    first = item.config.stash[CLAIMS].setdefault(path, owner)
+    if first != owner:
         pytest.fail(
-            f"the references '{path}' are those of {first} too; give {item.nodeid} a name or a "
-            "folder of its own",
+            f"the references '{path}' are those of {first} too; give {owner} a name or a folder of "
+            "its own",
             pytrace=False,
         )
 

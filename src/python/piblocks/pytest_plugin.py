@@ -16,7 +16,6 @@ parameters: of ``test_turn`` in ``test_scenes.py`` they begin with ``test_scenes
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -25,7 +24,7 @@ import pytest
 
 from . import _golden
 from ._compare import TOLERANCE
-from ._golden_picture import REMEDY, GoldenPictures, hold
+from ._golden_picture import REMEDY, GoldenPictures, check_or_keep
 from ._picture import is_picture
 from ._references import CLAIMS, claim, place, results_folder
 from ._scene import Scene
@@ -126,7 +125,7 @@ def _hold_picture(item: pytest.Function, given: Any, action: str | None, mark: p
     folder, name = _marked_place(item, mark)
     tolerance = {key: mark.kwargs[key] for key in TOLERANCE if key in mark.kwargs}
     claim(item, str(folder / name))
-    hold(item, action, folder / f"{name}.png", given, tolerance)
+    check_or_keep(item, action, folder / f"{name}.png", given, tolerance, ", what it returns")
 
 
 def _close(figure: Any) -> None:
@@ -145,7 +144,7 @@ def _hold(item: pytest.Function, given: Any, action: str | None, mark: pytest.Ma
     if isinstance(given, Scene):
         if action is not None:
             _hold_scene(item, given, action, mark)
-    elif is_picture(given) or isinstance(given, (str, os.PathLike, bytes)):
+    elif is_picture(given):
         try:
             _hold_picture(item, given, action, mark)
         finally:
