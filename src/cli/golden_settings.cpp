@@ -110,7 +110,7 @@ void GoldenSettings::read(const std::string& line) {
   if (line.empty() || line.starts_with('#')) return;
   const std::size_t end = line.find('=');
   const std::string name = line.substr(0, end);
-  const auto option = std::ranges::find(kToleranceOptions, name, &ToleranceOption::name);
+  const auto* const option = std::ranges::find(kToleranceOptions, name, &ToleranceOption::name);
   if (option == kToleranceOptions.end()) {
     throw UsageError(
         fmt::format("golden: '{}' has '{}'; it may have options such as "
