@@ -2,15 +2,16 @@
 // In: pointers fresh from Cairo. Out: smart pointers that release them, and checked errors.
 #pragma once
 
-#include <cairo.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <memory>
 
+#include "draw/cairo_calls.hpp"
+
 namespace piblocks {
 
-template <auto kRelease>
+template <const auto& kRelease>
 struct Released {
   void operator()(auto* object) const { kRelease(object); }
 };

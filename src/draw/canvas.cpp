@@ -1,11 +1,7 @@
 #include "draw/canvas.hpp"
 
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <ft2build.h>
-#include <pixman.h>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +17,6 @@
 #include "draw/cairo_handles.hpp"
 #include "draw/changes.hpp"
 #include "draw/painter.hpp"
-#include FT_FREETYPE_H
 
 namespace piblocks {
 namespace {

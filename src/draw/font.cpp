@@ -1,8 +1,6 @@
 #include "draw/font.hpp"
 
-#include <cairo-ft.h>
 #include <fmt/format.h>
-#include <ft2build.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
@@ -15,7 +13,6 @@
 #include "core/text.hpp"
 #include "draw/cairo_handles.hpp"
 #include "draw/embedded_fonts.hpp"
-#include FT_FREETYPE_H
 
 namespace piblocks {
 namespace {

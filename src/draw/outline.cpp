@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "draw/cairo_calls.hpp"
+
 namespace piblocks {
 namespace {
 

@@ -43,6 +43,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME piblocks)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION video)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libcairo2 (>= 1.16)")  # loaded, not linked
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
 "Two sliding blocks and a wall collide as often as the first digits of pi say.
 This program renders the animation as a video (H.264), as numbered pictures,
@@ -53,8 +54,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpiblocks-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 "piblocks (= ${package_version}), libgmp-dev, libmpfr-dev, libtomlplusplus-dev, \
-libcairo2-dev, libfreetype-dev, libpixman-1-dev, libpng-dev, zlib1g-dev, libdeflate-dev, \
-libfmt-dev")
+libpng-dev, zlib1g-dev, libdeflate-dev, libfmt-dev")
 # For event_simulator.hpp.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libeigen3-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
@@ -67,7 +67,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 math(EXPR next_python "${Python_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-"python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python}), python3-numpy")
+"python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python}), python3-numpy, \
+libcairo2 (>= 1.16)")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-ipywidgets, python3-pytest")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION
 "The library behind the program piblocks, for Python: scenes from keywords,
