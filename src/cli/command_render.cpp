@@ -77,6 +77,9 @@ void add_run_options(Command& command) {
   command.add_value("--poster", "T",
                     "Instant that the poster shows (default: the last frame; of a\n"
                     "storyboard, that of the last run with a diagram)");
+  command.add_value("--captions", "inside",
+                    "Give the MP4 a track of captions: those that --bundle writes\n"
+                    "beside it");
   command.add_value("--max-flashes", "N",
                     "Render nothing if the film would flash more than N times\n"
                     "within a second; 3 are held to be harmless (WCAG 2.3.1)");

@@ -61,6 +61,12 @@ EncoderSettings settings_of(const OptionTexts& options) {
   return settings;
 }
 
+/// The one place that can be named.
+bool parse_captions(const std::string& text) {
+  if (text == "inside") return true;
+  throw UsageError("must be inside; --bundle writes captions beside the video");
+}
+
 std::optional<Bundle> bundle_of(const OptionTexts& options) {
   const auto poster = options.value("--poster", parse_instant);
   if (const auto folder = options.text("--bundle")) return Bundle{*folder, poster};
@@ -104,6 +110,7 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
       .shard = options.value("--part", parse_part),
       .profile = options.is_given("--profile"),
       .bundle = bundle_of(options),
+      .captions_inside = options.value("--captions", parse_captions).value_or(false),
       .max_flashes = options.value("--max-flashes", parse_flashes),
       .overwrite = options.is_given("--overwrite")};
 }

@@ -59,10 +59,7 @@ class Encoder::Impl {
 
   const std::vector<std::uint8_t>& headers() const { return headers_; }
   const Level& level() const { return level_; }
-  void restart() {
-    is_begun_ = false;
-    coder_.restart();
-  }
+  void restart() { is_begun_ = false; }
   CodedPicture encode(const Planes& source, std::span<const Rect> changed, PictureType type,
                       Bytes& unit) {
     for (const Plane& plane : {source.y, source.cb, source.cr}) {

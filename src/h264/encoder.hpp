@@ -92,7 +92,8 @@ class Encoder {
                       std::vector<std::uint8_t>& unit);
 
   /// Makes the stream begin anew: the next picture is an IDR picture, whose bytes depend on its
-  /// samples alone. Nothing has to be passed whole again.
+  /// samples, and on whether the one before was an IDR picture, too (7.4.3), alone. Nothing has to
+  /// be passed whole again.
   void restart();
 
  private:

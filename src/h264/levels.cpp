@@ -110,11 +110,17 @@ bool RateWatch::take(std::int64_t size_bytes) {
   return is_kept;
 }
 
-LevelWatch::LevelWatch(int width_px, int height_px, PictureRate rate) {
+LevelWatch::LevelWatch(int width_px, int height_px, PictureRate rate, int profile_idc) {
+  constexpr int kHigh = 100;
   const Size size = size_of(width_px, height_px);
   for (const Level& level : kLevels) {
     if (!holds(level, size, rate)) continue;
-    candidates_.push_back({&level, RateWatch(level, static_cast<int>(size.area_mb()), rate)});
+    Level limits = level;
+    if (profile_idc == kHigh) {
+      limits.max_rate_bps += level.max_rate_bps / 4;
+      limits.max_buffer_bits += level.max_buffer_bits / 4;
+    }
+    candidates_.push_back({&level, RateWatch(limits, static_cast<int>(size.area_mb()), rate)});
   }
 }
 

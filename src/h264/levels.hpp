@@ -68,7 +68,8 @@ class RateWatch {
 /// The lowest level that holds a stream whose pictures are known one by one.
 class LevelWatch {
  public:
-  LevelWatch(int width_px, int height_px, PictureRate rate);
+  /// @param profile_idc  of High, 100, a level allows a quarter more bits (A.3.3, table A-2)
+  LevelWatch(int width_px, int height_px, PictureRate rate, int profile_idc);
 
   void take(std::int64_t size_bytes);
   /// Null if no level holds what was taken.

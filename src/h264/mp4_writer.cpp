@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <deque>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -11,6 +12,8 @@
 
 #include "h264/encoder.hpp"
 #include "h264/mp4_index.hpp"
+#include "h264/mp4_sound.hpp"
+#include "h264/mp4_text.hpp"
 #include "h264/nal_unit.hpp"
 
 namespace piblocks::h264 {
@@ -76,6 +79,51 @@ TrackFacts facts_of(const Mp4Track& track) {
   return facts;
 }
 
+std::optional<Mp4Sound> checked(const std::optional<Mp4Sound>& sound) {
+  if (!sound) return sound;
+  in_range(sound->rate_hz, 65535, "sound.rate_hz");
+  in_range(std::ssize(sound->config), 64, "the size of sound.config");
+  in_range(sound->packet_samples, 65535, "sound.packet_samples");
+  in_range(sound->delay + 1, 65536, "sound.delay + 1");
+  in_range(sound->samples, std::int64_t{1} << 47, "sound.samples");
+  return sound;
+}
+
+std::span<const Mp4Caption> checked(std::span<const Mp4Caption> captions, std::int64_t pictures) {
+  std::int64_t earliest = 0;
+  for (const Mp4Caption& caption : captions) {
+    if (caption.picture < earliest || caption.picture >= pictures) {
+      throw Error("h264: captions of an MP4 file are not in order, or begin after its end");
+    }
+    in_range(std::ssize(caption.text) + 1, 65536, "the size of a caption + 1");
+    earliest = caption.picture + 1;
+  }
+  return captions;
+}
+
+/// The most bytes that begin within a second.
+class SecondWatch {
+ public:
+  explicit SecondWatch(const TrackFacts& track)
+      : pictures_(static_cast<std::size_t>((track.time_scale - 1) / track.picture_duration + 1)) {}
+  void take(std::uint64_t size_bytes) {
+    sizes_.push_back(size_bytes);
+    sum_ += size_bytes;
+    if (sizes_.size() > pictures_) {
+      sum_ -= sizes_.front();
+      sizes_.pop_front();
+    }
+    most_ = std::max(most_, sum_);
+  }
+  std::uint64_t most_bytes() const noexcept { return most_; }
+
+ private:
+  std::size_t pictures_;  // in a second
+  std::deque<std::uint64_t> sizes_;
+  std::uint64_t sum_ = 0;
+  std::uint64_t most_ = 0;
+};
+
 /// Bytes that follow each other in the file, written in blocks.
 class Blocks {
  public:
@@ -124,50 +172,71 @@ class Mp4Writer::Impl {
  public:
   Impl(const Mp4Track& track, WriteAt write_at)
       : track_(facts_of(track)),
+        sound_(checked(track.sound)),
         write_at_(std::move(write_at)),
-        watch_(track.width_px, track.height_px, track.rate),
+        levels_(track.width_px, track.height_px, track.rate, track_.sequence_set[1]),
+        seconds_(track_),
         sizes_start_(kFileType_bytes + kBoxHeader_bytes + index_room(track_)),
-        data_start_(sizes_start_ + 4 * static_cast<std::uint64_t>(track_.max_pictures) +
-                    kBoxHeader_bytes + kLargeBoxHeader_bytes),
-        sizes_(sizes_start_, kSizesBlock_bytes),
-        data_(data_start_, kDataBlock_bytes) {}
+        sizes_(sizes_start_, kSizesBlock_bytes) {
+    if (!track.captions.empty()) {
+      texts_.emplace(track_, checked(track.captions, track_.max_pictures));
+    }
+    data_start_ = sizes_start_ + 4 * static_cast<std::uint64_t>(track_.max_pictures) +
+                  room_of_others() + kBoxHeader_bytes + kLargeBoxHeader_bytes;
+    data_.emplace(data_start_, kDataBlock_bytes);
+    if (texts_) put_data(texts_->data());
+  }
 
   void append(Bytes unit, bool is_idr) {
     check_room(tables_.pictures, track_.max_pictures, "pictures");
     if (is_idr) check_room(std::ssize(tables_.key_frames), track_.max_key_frames, "key frames");
     const std::uint64_t size_bytes = split(unit);
     if (tables_.pictures % track_.chunk_pictures == 0) {
-      tables_.chunks.push_back(data_start_ + tables_.data_bytes);
+      put_sound();
+      tables_.chunks.push_back(data_start_ + data_bytes_);
     }
     for (const Bytes part : parts_) {
-      data_.put_32(part.size(), write_at_);
-      data_.put(part, write_at_);
+      data_->put_32(part.size(), write_at_);
+      data_->put(part, write_at_);
     }
+    data_bytes_ += size_bytes;
     sizes_.put_32(size_bytes, write_at_);
     ++tables_.pictures;
     if (is_idr) tables_.key_frames.push_back(static_cast<std::uint32_t>(tables_.pictures));
     tables_.data_bytes += size_bytes;
-    watch_.take(static_cast<std::int64_t>(size_bytes));
+    levels_.take(static_cast<std::int64_t>(size_bytes));
+    seconds_.take(size_bytes);
+  }
+
+  void append_sound(Bytes packet) {
+    if (!sound_) throw Error("h264: an MP4 file has no sound");
+    check_room(std::ssize(packets_.sizes), static_cast<std::int64_t>(max_packets(*sound_)),
+               "packets of sound");
+    packets_.sizes.push_back(static_cast<std::uint32_t>(packet.size()));
+    ++waiting_packets_;
+    waiting_sound_.insert(waiting_sound_.end(), packet.begin(), packet.end());
   }
 
   void finish() {
     if (tables_.pictures == 0) throw Error("h264: an MP4 file has no picture");
-    data_.flush(write_at_);
+    if (sound_ && packets_.sizes.empty()) throw Error("h264: the sound of an MP4 file is missing");
+    put_sound();
+    data_->flush(write_at_);
     sizes_.flush(write_at_);
-    raise_level(track_.sequence_set, watch_.level());
-    const std::vector<std::uint8_t> index = make_index(track_, tables_);
+    raise_level(track_.sequence_set, levels_.level());
+    tables_.max_second_bytes = seconds_.most_bytes();
+    const std::vector<std::uint8_t> others = other_tracks();
+    const std::vector<std::uint8_t> index = make_index(
+        track_, tables_,
+        {.duration = duration(),
+         .tracks = 1 + std::uint64_t{sound_.has_value()} + std::uint64_t{texts_.has_value()},
+         .others_bytes = others.size()});
     const std::uint64_t index_start = sizes_start_ - index.size();
+    const std::uint64_t sizes_end = sizes_start_ + 4 * static_cast<std::uint64_t>(tables_.pictures);
     write_at_(index_start, index);
-    write_data_header(sizes_start_ + 4 * static_cast<std::uint64_t>(tables_.pictures));
-
-    BoxWriter front(index_start - kFileType_bytes - kBoxHeader_bytes);
-    front.box("ftyp", [&] {
-      front.put("isom");
-      front.put(512, 4);
-      front.put("isomiso2avc1mp41");
-    });
-    front.last_box("free", [] {});
-    write_at_(0, front.bytes());
+    if (!others.empty()) write_at_(sizes_end, others);
+    write_data_header(sizes_end + others.size());
+    write_start(index_start);
   }
 
  private:
@@ -197,29 +266,77 @@ class Mp4Writer::Impl {
     }
     return has_type(part, UnitType::access_unit_delimiter);
   }
-  /// From the end of the index to the first picture.
+  std::uint64_t room_of_others() const {
+    const std::int64_t chunks = (track_.max_pictures - 1) / track_.chunk_pictures + 2;
+    return (sound_ ? sound_track_room(*sound_, static_cast<std::uint64_t>(chunks)) : 0) +
+           (texts_ ? texts_->room() : 0);
+  }
+  std::vector<std::uint8_t> other_tracks() const {
+    std::vector<std::uint8_t> tracks;
+    if (sound_) tracks = make_sound_track(*sound_, packets_, track_.time_scale);
+    if (!texts_) return tracks;
+    const std::vector<std::uint8_t> texts =
+        texts_->make(sound_ ? 3 : 2, data_start_, tables_.pictures);
+    tracks.insert(tracks.end(), texts.begin(), texts.end());
+    return tracks;
+  }
+  std::uint64_t duration() const {
+    return std::max(static_cast<std::uint64_t>(tables_.pictures * track_.picture_duration),
+                    sound_ ? sound_duration(*sound_, track_.time_scale) : 0);
+  }
+  void put_data(Bytes bytes) {
+    data_->put(bytes, write_at_);
+    data_bytes_ += bytes.size();
+  }
+  /// The packets that wait, as a chunk.
+  void put_sound() {
+    if (waiting_packets_ == 0) return;
+    packets_.chunks.push_back({data_start_ + data_bytes_, std::exchange(waiting_packets_, 0)});
+    put_data(waiting_sound_);
+    waiting_sound_.clear();
+  }
+  /// From the end of the index to the first of the data.
   void write_data_header(std::uint64_t index_end) {
-    const bool is_large = tables_.data_bytes > kMax32 - kBoxHeader_bytes;
+    const bool is_large = data_bytes_ > kMax32 - kBoxHeader_bytes;
     const std::uint64_t size_bytes = is_large ? kLargeBoxHeader_bytes : kBoxHeader_bytes;
-    BoxWriter gap(data_start_ - size_bytes - index_end - kBoxHeader_bytes);
-    gap.last_box("free", [] {});
+    BoxWriter gap;
+    gap.box(
+        "free", [] {}, data_start_ - size_bytes - index_end - kBoxHeader_bytes);
     write_at_(index_end, gap.bytes());
 
-    BoxWriter header(0);
-    header.put(is_large ? 1 : size_bytes + tables_.data_bytes, 4);
+    BoxWriter header;
+    header.put(is_large ? 1 : size_bytes + data_bytes_, 4);
     header.put("mdat");
-    if (is_large) header.put(size_bytes + tables_.data_bytes, 8);
+    if (is_large) header.put(size_bytes + data_bytes_, 8);
     write_at_(data_start_ - size_bytes, header.bytes());
+  }
+  void write_start(std::uint64_t index_start) {
+    BoxWriter start;
+    start.box("ftyp", [&] {
+      start.put("isom");
+      start.put(512, 4);
+      start.put("isomiso2avc1mp41");
+    });
+    start.box(
+        "free", [] {}, index_start - kFileType_bytes - kBoxHeader_bytes);
+    write_at_(0, start.bytes());
   }
 
   TrackFacts track_;
+  std::optional<Mp4Sound> sound_;
+  std::optional<TextTrack> texts_;
   WriteAt write_at_;
-  LevelWatch watch_;
+  LevelWatch levels_;
+  SecondWatch seconds_;
   PictureTables tables_;
+  SoundTables packets_;
+  std::vector<std::uint8_t> waiting_sound_;
+  std::uint64_t waiting_packets_ = 0;
   std::uint64_t sizes_start_;
-  std::uint64_t data_start_;
+  std::uint64_t data_start_ = 0;
+  std::uint64_t data_bytes_ = 0;
   Blocks sizes_;
-  Blocks data_;
+  std::optional<Blocks> data_;
   std::vector<Bytes> parts_;  // of the picture that is being appended
 };
 
@@ -227,6 +344,7 @@ Mp4Writer::Mp4Writer(const Mp4Track& track, WriteAt write_at)
     : impl_(std::make_unique<Impl>(track, std::move(write_at))) {}
 Mp4Writer::~Mp4Writer() = default;
 void Mp4Writer::append(Bytes unit, bool is_idr) { impl_->append(unit, is_idr); }
+void Mp4Writer::append_sound(Bytes packet) { impl_->append_sound(packet); }
 void Mp4Writer::finish() { impl_->finish(); }
 
 }  // namespace piblocks::h264

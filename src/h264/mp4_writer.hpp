@@ -1,21 +1,41 @@
-// H.264 in an MP4 file (ISO/IEC 14496-12 and -15), which is written once.
-// In: a stream's headers, and its access units one after another. Out: bytes, and where they go.
+// H.264, and AAC and captions if wanted, in an MP4 file (ISO/IEC 14496-12 and -15), which is
+// written once. In: a stream's headers, its access units one after another, packets of sound,
+// texts. Out: bytes, and where they go.
 //
 // The file: ftyp | free | moov | free | mdat. The index, moov, stands in front, so that a player
 // can begin before it has the whole file. Its longest table, stsz, is the last thing in it, and
-// grows where it stands while the pictures come; finish() writes the rest directly in front of it.
+// grows where it stands while the pictures come; finish() writes the rest directly in front of it,
+// and other tracks directly behind it.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "h264/levels.hpp"
 
 namespace piblocks::h264 {
 
-/// What an MP4 file says of its one track.
+/// A track of AAC in stereo.
+struct Mp4Sound {
+  int rate_hz;                       ///< 1 … 65535
+  std::vector<std::uint8_t> config;  ///< AudioSpecificConfig (ISO/IEC 14496-3), up to 64 bytes
+  int packet_samples;                ///< of each packet
+  int delay;                         ///< samples before those that are heard
+  std::int64_t samples;              ///< that are heard, 1 … 2^47
+};
+
+/// A text that is shown from a picture on until the next one; an empty text is none.
+struct Mp4Caption {
+  std::int64_t picture;  ///< from 0, below max_pictures; greater than the one before
+  std::string text;      ///< UTF-8, up to 65535 bytes
+};
+
+/// What an MP4 file says of its tracks.
 struct Mp4Track {
   int width_px;      ///< 1 … 65535
   int height_px;     ///< 1 … 65535
@@ -26,9 +46,12 @@ struct Mp4Track {
   std::int64_t max_pictures;
   /// No more IDR pictures may follow; 0: all may be. The file has 4 bytes for each.
   std::int64_t max_key_frames = 0;
+  std::optional<Mp4Sound> sound = {};
+  std::vector<Mp4Caption> captions = {};
 };
 
-/// Its memory does not depend on the number of pictures, but for 4 bytes for each key frame.
+/// Its memory does not depend on the number of pictures, but for 4 bytes for each key frame and
+/// each packet of sound.
 class Mp4Writer {
  public:
   /// Writes bytes into a new file, whose other bytes are zeros, as those of a hole are. No byte is
@@ -47,8 +70,11 @@ class Mp4Writer {
   ///         the unit is empty, does not fit 32 bits, or comes with parameter sets that are not the
   ///         headers'. The file is then as it was before.
   void append(std::span<const std::uint8_t> unit, bool is_idr);
+  /// Adds the next packet of sound. It is in front of the next second of pictures that begins.
+  /// @throws Error if the file has no sound, or has all packets already.
+  void append_sound(std::span<const std::uint8_t> packet);
   /// Writes the index and all that was held back. Only the destructor may follow.
-  /// @throws Error if no picture was appended.
+  /// @throws Error if no picture was appended, or no packet of a sound.
   void finish();
 
  private:

@@ -162,6 +162,13 @@ std::vector<std::uint8_t> write_parameter_sets(const Config& config, int level_i
   return headers;
 }
 
+int profile_idc(std::span<const std::uint8_t> headers) {
+  const std::vector<Unit> units = read_units(headers);
+  const auto set =
+      std::ranges::find(units, static_cast<int>(UnitType::sequence_parameters), &Unit::type);
+  return set == units.end() || set->rbsp.empty() ? 0 : set->rbsp[0];
+}
+
 bool may_follow(std::span<const std::uint8_t> headers, const Config& config) {
   constexpr auto kSequence = static_cast<int>(UnitType::sequence_parameters);
   constexpr auto kPicture = static_cast<int>(UnitType::picture_parameters);

@@ -19,6 +19,9 @@ inline constexpr int kFrameNum_bits = 4;
 /// Slices depend on what libx264 says in its preset ultrafast, at this quantiser.
 std::vector<std::uint8_t> write_parameter_sets(const Config& config, int level_idc);
 
+/// Of the sequence parameter set in a stream's headers; 0 if there is none.
+int profile_idc(std::span<const std::uint8_t> headers);
+
 /// Whether slices of an encoder with other headers can follow ours: whether these agree with ours
 /// in all that slices depend on (7.4.2.1, 7.4.2.2).
 /// @param headers  with start codes; false for any that cannot be read.

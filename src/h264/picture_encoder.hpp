@@ -34,8 +34,6 @@ class PictureEncoder {
   /// @param unit     is replaced by the access unit, with a start code of four bytes
   void encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit);
   void encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit);
-  /// The next picture, which is an IDR picture, begins a stream of its own.
-  void restart() { is_after_idr_ = false; }
 
   /// The last picture as every decoder has it.
   const Picture& decoded() const noexcept { return decoded_; }

@@ -15,6 +15,7 @@
 #include "render/flash_meter.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
+#include "render/video_text.hpp"
 #include "scene/run_log.hpp"
 
 namespace piblocks {
@@ -28,7 +29,8 @@ struct Plan {
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.view().background == Background::transparent},
-                             job.encoder, sound, job.overwrite)),
+                             job.encoder, sound, job.overwrite,
+                             job.captions_inside ? captions_of(film) : std::vector<Caption>())),
         chunks{output.has_frames ? film.frame_count() : 0, output.frames_per_chunk} {}
 
   static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
@@ -120,6 +122,9 @@ void check_shard(const RenderJob& job) {
   if (job.shard->number < 1 || job.shard->number > job.shard->count) {
     throw UsageError(fmt::format("part {} of {}: the number must be from 1 to the count",
                                  job.shard->number, job.shard->count));
+  }
+  if (job.captions_inside) {
+    throw UsageError("part: parts have no captions inside; leave --captions or --part out");
   }
   if (job.output == "-" || job.output == "null" || is_sound_alone(job.output)) {
     throw UsageError(

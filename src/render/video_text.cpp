@@ -403,16 +403,23 @@ std::string describe_film(const Film& film) {
   return text;
 }
 
-std::string captions(const Film& film, CaptionFormat format) {
-  const Rational& frame_rate = film.view().frame_rate;
+std::vector<Caption> captions_of(const Film& film) {
   Cues cues;
   for (const Part& part : parts_of(film)) {
-    for (auto& [frame, text] : cues_of(part, frame_rate)) {
+    for (auto& [frame, text] : cues_of(part, film.view().frame_rate)) {
       if (cues.empty() || std::prev(cues.end())->second != text) {
         cues[part.placed.first_seen() + frame] = text;
       }
     }
   }
+  std::vector<Caption> captions;
+  for (const auto& [frame, text] : cues) captions.push_back({frame, text});
+  return captions;
+}
+
+std::string captions(const Film& film, CaptionFormat format) {
+  const Rational& frame_rate = film.view().frame_rate;
+  const std::vector<Caption> cues = captions_of(film);
   const bool is_vtt = format == CaptionFormat::webvtt;
   std::string text = is_vtt ? "WEBVTT\n\n" : "";
   int number = 0;
@@ -423,9 +430,9 @@ std::string captions(const Film& film, CaptionFormat format) {
     };
     if (number > 0) text += '\n';
     if (++number; !is_vtt) text += fmt::format("{}\n", number);
-    text += fmt::format("{} --> {}\n{}\n", time(cue->first),
-                        time(next != cues.end() ? next->first : film.frame_count()),
-                        is_vtt ? escaped_lines(cue->second) : cue->second);
+    text += fmt::format("{} --> {}\n{}\n", time(cue->frame),
+                        time(next != cues.end() ? next->frame : film.frame_count()),
+                        is_vtt ? escaped_lines(cue->text) : cue->text);
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/film.hpp"
 
@@ -18,11 +19,8 @@ std::string title_of(const Film& film);
 /// bodies, the end of the count and what the diagram proves, in the order of the film.
 std::string describe_film(const Film& film);
 
-/// WebVTT for browsers, SubRip (SRT) for editors and video sites.
-enum class CaptionFormat { webvtt, subrip };
-
-/// A caption ends where the next one begins. Times are those of frames, rounded up to
-/// milliseconds. In the middle of a fade the captions of the next part begin.
+/// A caption ends where the next one begins, the last one with the film. In the middle of a fade
+/// the captions of the next part begin.
 ///
 /// A card is said as it is written. A run begins with its title, which stays for as long as one
 /// reads it. A caption gives the exact count if that stays for a second or more, or is the run's
@@ -30,6 +28,12 @@ enum class CaptionFormat { webvtt, subrip };
 /// 100 and so on. Before time 0 captions give the number of collisions until time 0. With the
 /// highest count comes what there is time to read: that no more follow, the digits of pi, what the
 /// diagram proves. Of compared runs captions give the names, then each count when it is reached.
+std::vector<Caption> captions_of(const Film& film);
+
+/// WebVTT for browsers, SubRip (SRT) for editors and video sites.
+enum class CaptionFormat { webvtt, subrip };
+
+/// Those captions as a file. Times are those of frames, rounded up to milliseconds.
 std::string captions(const Film& film, CaptionFormat format = CaptionFormat::webvtt);
 
 /// The captions as an address that has them in it: browsers load none from beside a page that is

@@ -263,7 +263,8 @@ TEST(LevelWatch, IsTheLowestLevelThatNeverBreaks) {
     const int size_mb = ((width_px + 15) / 16) * ((height_px + 15) / 16);
     const std::int64_t most_bytes = random.integer(1, std::int64_t{1} << random.integer(1, 26));
     std::vector<std::int64_t> sizes;
-    LevelWatch watch(width_px, height_px, rate);
+    const bool is_high = random.integer(0, 1) == 1;
+    LevelWatch watch(width_px, height_px, rate, is_high ? 100 : 66);
     EXPECT_EQ(watch.level(), lowest_level(width_px, height_px, rate));
     for (int picture = 0; picture < 30; ++picture) {
       sizes.push_back(random.integer(0, most_bytes));
@@ -272,7 +273,11 @@ TEST(LevelWatch, IsTheLowestLevelThatNeverBreaks) {
     const Level* lowest = nullptr;
     for (const Level& level : levels()) {
       if (lowest != nullptr || !holds(level, width_px, height_px, rate)) continue;
-      RateWatch single(level, size_mb, rate);
+      // Table A-2: cpbBrVclFactor is 1250 of the High profile, else 1000.
+      Level limits = level;
+      limits.max_rate_bps = level.max_rate_bps / 1000 * (is_high ? 1250 : 1000);
+      limits.max_buffer_bits = level.max_buffer_bits / 1000 * (is_high ? 1250 : 1000);
+      RateWatch single(limits, size_mb, rate);
       bool never_breaks = true;
       for (const std::int64_t size : sizes) never_breaks = single.take(size) && never_breaks;
       if (never_breaks) lowest = &level;
@@ -285,7 +290,7 @@ TEST(LevelWatch, IsTheLowestLevelThatNeverBreaks) {
 }
 
 TEST(LevelWatch, HasNoneForWhatNoLevelHolds) {
-  LevelWatch watch(16881, 16, {1, 1});
+  LevelWatch watch(16881, 16, {1, 1}, 66);
   EXPECT_EQ(watch.level(), nullptr);
   watch.take(1);
   EXPECT_EQ(watch.level(), nullptr);

@@ -101,7 +101,9 @@ struct Mp4Boxes {
   }
 };
 
-inline const std::string kTables = "moov/trak/mdia/minf/stbl/";
+/// The tables of a track: "moov/trak", or "moov/trak'", the second one.
+inline std::string tables_of(const std::string& track) { return track + "/mdia/minf/stbl/"; }
+inline const std::string kTables = tables_of("moov/trak");
 
 struct Sample {
   std::uint64_t offset;
@@ -109,12 +111,12 @@ struct Sample {
   friend bool operator==(const Sample&, const Sample&) = default;
 };
 
-/// Where each picture is, by stsc, stco or co64, and stsz.
-inline std::vector<Sample> samples_of(const Mp4Boxes& boxes) {
-  const ByteVector sizes = boxes.at(kTables + "stsz");
-  const ByteVector runs = boxes.at(kTables + "stsc");
-  const bool is_far = boxes.has(kTables + "co64");
-  const ByteVector offsets = boxes.at(kTables + (is_far ? "co64" : "stco"));
+/// Where each sample is, by stsc, stco or co64, and stsz.
+inline std::vector<Sample> samples_of(const Mp4Boxes& boxes, const std::string& tables = kTables) {
+  const ByteVector sizes = boxes.at(tables + "stsz");
+  const ByteVector runs = boxes.at(tables + "stsc");
+  const bool is_far = boxes.has(tables + "co64");
+  const ByteVector offsets = boxes.at(tables + (is_far ? "co64" : "stco"));
   EXPECT_EQ(number_at(sizes, 4), 0u);
   const std::uint64_t count = number_at(sizes, 8);
   EXPECT_EQ(sizes.size(), 12 + 4 * count);
@@ -129,7 +131,7 @@ inline std::vector<Sample> samples_of(const Mp4Boxes& boxes) {
     std::uint64_t at = number_at(offsets, 8 + (is_far ? 8 : 4) * chunk, is_far ? 8 : 4);
     for (std::uint64_t i = number_at(runs, 12 + 12 * run); i > 0; --i) {
       if (samples.size() == count) {
-        ADD_FAILURE() << "chunks of too many pictures";
+        ADD_FAILURE() << "chunks of too many samples";
         return samples;
       }
       const std::uint64_t size = number_at(sizes, 12 + 4 * samples.size());

@@ -5,6 +5,7 @@
 
 #include <piblocks/encode.hpp>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -12,20 +13,30 @@
 #include <vector>
 
 #include "h264/encoder.hpp"
+#include "h264/mp4_writer.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/frame_reader.hpp"
 
 namespace piblocks {
 
+/// AAC of a soundtrack, for our own MP4 files.
+struct AacSound {
+  std::string signature;  ///< of the encoder
+  h264::Mp4Sound track;
+  std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode;
+};
+
 /// The functions of the module.
 struct AvModule {
   const char* version;  ///< kVersion of the build; if it is another, nothing else may be touched
-  // output_kinds.hpp; the first is mp4_output() for what is not written without libav
+  // output_kinds.hpp; the first is mp4_output() for what our own encoder does not make
   Output (*mp4_output)(const OutputRequest& request);
   Output (*mov_output)(const OutputRequest& request);
   Output (*webm_output)(const OutputRequest& request);
   Output (*gif_output)(const OutputRequest& request);
   Output (*framehash_output)(const OutputRequest& request);
+  /// @throws UsageError if libavcodec has no encoder
+  AacSound (*aac_sound)(const SoundFormat& format);
   /// MakeSuccessor
   std::unique_ptr<ChunkEncoder> (*h264_successor)(const VideoFormat& format,
                                                   const h264::Config& config);
@@ -57,8 +68,9 @@ std::string hash_of_bytes(ByteSpan bytes);
 
 // The module's own functions, behind those above. Only the module and tests link them.
 
-/// mp4_output() by libavformat: with sound, or by one of libavcodec's encoders.
+/// mp4_output() by libavformat and one of libavcodec's encoders.
 Output mp4_output_by_libav(const OutputRequest& request);
+AacSound aac_sound(const SoundFormat& format);
 /// libavcodec's encoder for a stream of this config; null if there is none.
 std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format, const h264::Config& config);
 /// read_video()

@@ -13,6 +13,7 @@ extern "C" const piblocks::AvModule* piblocks_av_module() {
                                        .webm_output = webm_output,
                                        .gif_output = gif_output,
                                        .framehash_output = framehash_output,
+                                       .aac_sound = aac_sound,
                                        .h264_successor = h264_successor,
                                        .read_video = decode_video_file,
                                        .hash_of_bytes = compute_hash,

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "media/libav/av_module.hpp"
 #include "media/libav/encoder_setup.hpp"
 #include "media/output/output_kinds.hpp"
 
@@ -125,6 +126,19 @@ std::string SoundEncoder::signature() const {
 std::unique_ptr<PacketSource> SoundEncoder::encode(SampleSource& samples) const {
   if (settings_.is_pcm) return pcm_packets(samples);
   return std::make_unique<SoundPackets>(open(), samples);
+}
+
+AacSound aac_sound(const SoundFormat& format) {
+  const auto encoder = std::make_shared<const SoundEncoder>(kAac, format);
+  const AVCodecParameters& parameters = encoder->parameters();
+  return {
+      .signature = encoder->signature(),
+      .track = {.rate_hz = format.rate_hz,
+                .config = {parameters.extradata, parameters.extradata + parameters.extradata_size},
+                .packet_samples = encoder->packet_size(),
+                .delay = parameters.initial_padding,
+                .samples = format.size},
+      .encode = [encoder](SampleSource& samples) { return encoder->encode(samples); }};
 }
 
 SoundStream::SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, bool from_zero,

@@ -12,6 +12,7 @@
 #include "core/output_file.hpp"
 #include "h264/levels.hpp"
 #include "h264/mp4_writer.hpp"
+#include "h264/parameter_sets.hpp"
 #include "media/output/output_kinds.hpp"
 
 extern "C" {
@@ -100,7 +101,9 @@ class VideoFile final : public FrameSink {
     add_stream();
     if (stream.parameters->codec_id == AV_CODEC_ID_H264) {
       levels_.emplace(stream.parameters->width, stream.parameters->height,
-                      h264::PictureRate{stream.frame_rate.num, stream.frame_rate.den});
+                      h264::PictureRate{stream.frame_rate.num, stream.frame_rate.den},
+                      h264::profile_idc({stream.parameters->extradata,
+                                         std::size_t(stream.parameters->extradata_size)}));
     }
     if (sound != nullptr) sound_.emplace(*sound, *muxer_, container_.sound_from_zero, name_);
     write_header();

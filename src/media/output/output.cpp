@@ -31,6 +31,7 @@ constexpr unsigned kSound = 4;
 constexpr unsigned kPictures = 8;  // keeps them
 constexpr unsigned kPlays = 16;    // says how often it plays
 constexpr unsigned kNumbers = 32;  // has numbered files
+constexpr unsigned kCaptions = 64;
 
 struct OutputKind {
   std::string_view ending;  ///< of its files' names, or the whole name if that has no dot
@@ -43,7 +44,7 @@ struct OutputKind {
 };
 
 constexpr std::array kOutputKinds = {
-    OutputKind{".mp4", mp4_output, kPictures | kSettings | kSound},
+    OutputKind{".mp4", mp4_output, kPictures | kSettings | kSound | kCaptions},
     OutputKind{".mov", by_module<&AvModule::mov_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures | kPlays},
@@ -117,6 +118,11 @@ void check_kind(const OutputKind& kind, const OutputRequest& request, Problems& 
         "output: '{}' cannot be transparent; use an opaque background or write one of: {}",
         request.name, names(kPictures | kAlpha)));
   }
+  if (!request.captions.empty() && !kind.has(kCaptions)) {
+    problems.add(
+        fmt::format("output: '{}' has no captions inside; leave them out or write one of: {}",
+                    request.name, names(kCaptions)));
+  }
   if (request.sound && !kind.has(kSound)) problems.add("output: " + no_sound_in(request.name));
 }
 
@@ -153,8 +159,8 @@ std::unique_ptr<PacketSource> reject_sound(SampleSource& /*samples*/) {
 
 Output set_up_output(const std::string& name, const VideoFormat& format,
                      const EncoderSettings& settings, const std::optional<SoundFormat>& sound,
-                     bool overwrite) {
-  const OutputRequest request = {name, format, settings, sound, overwrite};
+                     bool overwrite, const std::vector<Caption>& captions) {
+  const OutputRequest request = {name, format, settings, sound, overwrite, captions};
   Problems problems;
   const OutputKind* const kind = find_kind(name);
   if (kind != nullptr) {

@@ -35,6 +35,12 @@ struct SoundFormat {
   std::int64_t size = 0;  ///< pairs of samples, >= 0
 };
 
+/// A text that is shown from a frame on until the next one; an empty text is none.
+struct Caption {
+  std::int64_t frame;
+  std::string text;
+};
+
 /// The samples of a soundtrack. Used by one thread at a time.
 class SampleSource {
  public:
@@ -152,11 +158,12 @@ struct Output {
 /// Sets up the output whose kind the name tells (the table in output.cpp), such as `*.mp4`, `*.png`
 /// with one integer field such as `%06d`, `-` (y4m on standard output) or `null`.
 /// @param overwrite  whether pictures may replace files that are no pictures of a sequence.
+/// @param captions   that the file itself is to have, in order
 /// @throws UsageError if the name has no known kind, the format or the settings do not suit the
 ///         kind, or there is no encoder.
 Output set_up_output(const std::string& name, const VideoFormat& format,
                      const EncoderSettings& settings, const std::optional<SoundFormat>& sound = {},
-                     bool overwrite = false);
+                     bool overwrite = false, const std::vector<Caption>& captions = {});
 
 /// Whether an output of this name is sound without pictures: `*.wav`.
 bool is_sound_alone(const std::string& name);

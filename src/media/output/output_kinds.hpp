@@ -28,6 +28,7 @@ struct OutputRequest {
   EncoderSettings settings;
   std::optional<SoundFormat> sound = {};
   bool overwrite = false;
+  std::vector<Caption> captions = {};
 };
 
 /// Collects everything that is wrong, to report it at once.

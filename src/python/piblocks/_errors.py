@@ -13,7 +13,7 @@ from . import _piblocks
 _OPTIONS = {
     name: name.replace("-", "_")
     for name in (
-        "at base bounds bundle by count-antialiasing crf diff digits dir encoder engine first "
+        "at base bounds bundle by captions count-antialiasing crf diff digits dir encoder engine first "
         "frames hard-delta ignore-transparent jobs last limit mass-ratio max-delta max-flashes "
         "max-pixels max-window part plays poster preset restitution smallest "
         "start-number threshold"

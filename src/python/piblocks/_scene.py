@@ -349,6 +349,7 @@ class Scene:
         start_number: int | None = None,
         plays: int | None = None,
         smallest: bool = False,
+        captions: str | None = None,
         part: Any = None,
         bundle: Path | None = None,
         poster: Any = None,
@@ -368,6 +369,7 @@ class Scene:
         :param jobs: threads (default: one a processor); changes no byte.
         :param start_number: of the first numbered picture (default: 1).
         :param plays: how often a GIF or APNG plays (default: for ever).
+        :param captions: "inside" gives an MP4 a track of captions.
         :param for_: size, rate and background that suit "powerpoint", "web", ...
         :param part: (2, 3) renders the second of three shares, for ``join``.
         :param bundle: a folder for the video, a poster, captions, and snippets for slides.
@@ -384,6 +386,7 @@ class Scene:
             "--start-number": start_number,
             "--plays": plays,
             "--smallest": smallest,
+            "--captions": captions,
             "--max-flashes": max_flashes,
             "--profile": profile,
             "--overwrite": overwrite,
