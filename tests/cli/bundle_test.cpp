@@ -183,6 +183,30 @@ TEST_F(BundleTest, SubtitlesAreTheCaptions) {
   EXPECT_EQ(contents("talk/captions.srt"), expected);
 }
 
+/// A track of the MP4, as ffmpeg reads it.
+TEST_F(BundleTest, CaptionsInsideAreThoseBeside) {
+  Arguments render = kRender;
+  render.at(3) = "320x180";
+  for (const Arguments& more : {Arguments{}, Arguments{"--sound"}}) {
+    output_of(render + more + Arguments{"--captions", "inside", "--overwrite", "--bundle", "talk"});
+    // Without tags for the font.
+    const std::string inside = shell("ffmpeg -nostdin -v error -i talk/" + render.back() +
+                                     " -map 0:s -f srt - | sed -E 's/<[^>]*>//g'");
+    EXPECT_EQ(inside, contents("talk/captions.srt") + "\n");
+  }
+  EXPECT_EQ(refusal({"render", "-o", "a.gif", "--captions", "inside"}),
+            "piblocks: output: 'a.gif' has no captions inside; leave them out or write one of: "
+            "*.mp4\n");
+  EXPECT_EQ(refusal({"render", "-o", "a.mp4", "--captions", "inside", "--crf", "20"}),
+            "piblocks: output: captions inside an MP4 need the encoder builtin; leave out either "
+            "--captions or crf, preset, encoder and smallest\n");
+  EXPECT_EQ(refusal({"render", "-o", "a.mp4", "--captions", "inside", "--part", "1/2"}),
+            "piblocks: part: parts have no captions inside; leave --captions or --part out\n");
+  EXPECT_EQ(refusal({"render", "-o", "a.mp4", "--captions", "beside"}),
+            "piblocks: --captions beside: must be inside; --bundle writes captions beside the "
+            "video\n");
+}
+
 TEST_F(BundleTest, LeavesOtherFilesAlone) {
   output_of(kRender + Arguments{"--bundle", "talk"});
   write("talk/notes.txt", "mine");
