@@ -53,11 +53,15 @@ def _data_url(data: bytes, kind: str) -> str:
     return f"data:{kind};base64,{base64.b64encode(data).decode()}"
 
 
+# What is left of a frame in a notebook that is not trusted.
+_UNTRUSTED = "Jupyter shows the film once you trust this notebook."
+
+
 def _frame_of_page(page: str, width: int, height: int) -> str:
     return (
         f'<iframe srcdoc="{escape(page, quote=True)}" sandbox="allow-scripts" '
         f'title="piblocks" style="width: 100%; max-width: {width + 40}px; '
-        f'height: {height + _CONTROLS_HEIGHT}px; border: 0"></iframe>'
+        f'height: {height + _CONTROLS_HEIGHT}px; border: 0">{_UNTRUSTED}</iframe>'
     )
 
 
