@@ -41,6 +41,7 @@ class FoundFunction<Result(Arguments...)> {
   mutable std::atomic<Result (*)(Arguments...)> function_ = nullptr;
 };
 
+// NOLINTBEGIN(cppcoreguidelines-macro-usage): only a macro makes declarations of a list of names
 // clang-format off
 #define PIBLOCKS_DRAWING_FUNCTIONS(X) \
   X(FT_Done_Face) X(FT_Done_FreeType) X(FT_Get_Char_Index) X(FT_Init_FreeType) \
@@ -77,5 +78,6 @@ class FoundFunction<Result(Arguments...)> {
 #define PIBLOCKS_FOUND(name) inline constinit const FoundFunction<decltype(::name)> name(#name);
 PIBLOCKS_DRAWING_FUNCTIONS(PIBLOCKS_FOUND)
 #undef PIBLOCKS_FOUND
+// NOLINTEND(cppcoreguidelines-macro-usage)
 
 }  // namespace piblocks

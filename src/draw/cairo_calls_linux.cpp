@@ -7,23 +7,18 @@
 namespace piblocks {
 namespace {
 
-DrawError cannot_load() {
-  return DrawError(fmt::format("draw: cannot load Cairo: {}; reinstall libcairo2", ::dlerror()));
-}
-
-void* load_cairo() {
-  void* const library = ::dlopen(PIBLOCKS_CAIRO_FILE, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw cannot_load();
-  return library;  // and stays: its functions are called until the program ends
+/// @throws DrawError if it is null, the answer of the dynamic linker
+void* checked(void* found) {
+  if (found != nullptr) return found;
+  throw DrawError(fmt::format("draw: cannot load Cairo: {}; reinstall libcairo2", ::dlerror()));
 }
 
 }  // namespace
 
 void* drawing_function(const char* name) {
-  static void* const library = load_cairo();
-  void* const found = ::dlsym(library, name);  // in what Cairo needs, too
-  if (found == nullptr) throw cannot_load();
-  return found;
+  // Loaded once, and kept: its functions are called until the program ends.
+  void* const library = checked(::dlopen(PIBLOCKS_CAIRO_FILE, RTLD_NOW | RTLD_LOCAL));
+  return checked(::dlsym(library, name));  // in what Cairo needs, too
 }
 
 }  // namespace piblocks

@@ -18,7 +18,7 @@ class SoundTrack : private TrackWriter {
  public:
   SoundTrack(const Mp4Sound& sound, const SoundTables& tables, std::int64_t movie_scale)
       : sound_(sound), tables_(tables) {
-    const std::uint64_t delay = static_cast<std::uint64_t>(sound.delay);
+    const auto delay = static_cast<std::uint64_t>(sound.delay);
     media_duration_ = delay + static_cast<std::uint64_t>(sound.samples);
     const Head head{kId,
                     static_cast<std::uint64_t>(sound.rate_hz),

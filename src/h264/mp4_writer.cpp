@@ -226,11 +226,11 @@ class Mp4Writer::Impl {
     raise_level(track_.sequence_set, levels_.level());
     tables_.max_second_bytes = seconds_.most_bytes();
     const std::vector<std::uint8_t> others = other_tracks();
-    const std::vector<std::uint8_t> index = make_index(
-        track_, tables_,
-        {.duration = duration(),
-         .tracks = 1 + std::uint64_t{sound_.has_value()} + std::uint64_t{texts_.has_value()},
-         .others_bytes = others.size()});
+    const std::vector<std::uint8_t> index =
+        make_index(track_, tables_,
+                   {.duration = duration(),
+                    .tracks = 1U + (sound_ ? 1U : 0U) + (texts_ ? 1U : 0U),
+                    .others_bytes = others.size()});
     const std::uint64_t index_start = sizes_start_ - index.size();
     const std::uint64_t sizes_end = sizes_start_ + 4 * static_cast<std::uint64_t>(tables_.pictures);
     write_at_(index_start, index);
