@@ -29,13 +29,14 @@ struct Particle {
   static_assert(Dim >= 1, "a particle needs a space of fixed dimension");
   using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 
-  Scalar mass = Scalar(1);           ///< > 0; may be kInfiniteMass
-  Scalar radius = Scalar(1);         ///< > 0, finite; half the width of a block
-  Vector position = Vector::Zero();  ///< of the centre, finite
-  Vector velocity = Vector::Zero();  ///< finite
+  Scalar mass = Scalar(1);    ///< > 0; may be kInfiniteMass
+  Scalar radius = Scalar(1);  ///< > 0, finite; half the width of a block
+  // GCC 12 breaks down at Vector::Zero() where an initialiser leaves out a member.
+  Vector position = Vector::Constant(Scalar(0));  ///< of the centre, finite
+  Vector velocity = Vector::Constant(Scalar(0));  ///< finite
   /// Not 0: it is a wall through `position` that faces this way, of any length; its mass must be
   /// infinite, and its radius has no meaning.
-  Vector facing = Vector::Zero();
+  Vector facing = Vector::Constant(Scalar(0));
 
   bool is_wall() const { return facing != Vector::Zero(); }
   bool is_immovable() const { return mass == kInfiniteMass<Scalar>; }
