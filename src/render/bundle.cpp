@@ -12,6 +12,7 @@
 #include "core/input_file.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
+#include "render/captions.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"
 

@@ -1,0 +1,29 @@
+// What a film says, for people who cannot hear it or see it well.
+// In: a film. Out: captions.
+#pragma once
+
+#include <string>
+
+#include "render/film.hpp"
+
+namespace piblocks {
+
+/// WebVTT for browsers, SubRip (SRT) for editors and video sites.
+enum class CaptionFormat { webvtt, subrip };
+
+/// A caption ends where the next one begins. Times are those of frames, rounded up to
+/// milliseconds. In the middle of a fade the captions of the next part begin.
+///
+/// A card is said as it is written. A run begins with its title, which stays for as long as one
+/// reads it. A caption gives the exact count if that stays for a second or more, or is the run's
+/// highest. Other captions say "100 collisions or more", from the first frame that counts 1, 10,
+/// 100 and so on. Before time 0 captions give the number of collisions until time 0. With the
+/// highest count comes what there is time to read: that no more follow, the digits of pi, what the
+/// diagram proves. Of compared runs captions give the names, then each count when it is reached.
+std::string captions(const Film& film, CaptionFormat format = CaptionFormat::webvtt);
+
+/// The captions as an address that has them in it: browsers load none from beside a page that is
+/// opened from a folder.
+std::string captions_address(const Film& film);
+
+}  // namespace piblocks
