@@ -6,7 +6,6 @@
 #include <iterator>
 #include <map>
 #include <utility>
-#include <vector>
 
 #include "core/text.hpp"
 #include "render/film_words.hpp"
@@ -151,18 +150,22 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate, char point
                      point, ms % 1000);
 }
 
-}  // namespace
-
-std::string captions(const Film& film, CaptionFormat format) {
-  const Rational& frame_rate = film.view().frame_rate;
+/// By their frames in the film.
+Cues cues_of(const Film& film) {
   Cues cues;
   for (const Part& part : parts_of(film)) {
-    for (auto& [frame, text] : cues_of(part, frame_rate)) {
+    for (auto& [frame, text] : cues_of(part, film.view().frame_rate)) {
       if (cues.empty() || std::prev(cues.end())->second != text) {
         cues[part.placed.first_seen() + frame] = text;
       }
     }
   }
+  return cues;
+}
+
+/// @param end  of the last cue
+std::string file_of(const Cues& cues, std::int64_t end, const Rational& frame_rate,
+                    CaptionFormat format = CaptionFormat::webvtt) {
   const bool is_vtt = format == CaptionFormat::webvtt;
   std::string text = is_vtt ? "WEBVTT\n\n" : "";
   int number = 0;
@@ -174,16 +177,40 @@ std::string captions(const Film& film, CaptionFormat format) {
     if (number > 0) text += '\n';
     if (++number; !is_vtt) text += fmt::format("{}\n", number);
     text += fmt::format("{} --> {}\n{}\n", time(cue->first),
-                        time(next != cues.end() ? next->first : film.frame_count()),
+                        time(next != cues.end() ? next->first : end),
                         is_vtt ? escaped_lines(cue->second) : cue->second);
   }
   return text;
 }
 
-std::string captions_address(const Film& film) {
-  const std::string text = captions(film);
-  return "data:text/vtt;base64," +
-         base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}  // namespace
+
+std::string captions(const Film& film, CaptionFormat format) {
+  return file_of(cues_of(film), film.frame_count(), film.view().frame_rate, format);
+}
+
+std::vector<std::string> shot_captions(const Film& film) {
+  const Rational& frame_rate = film.view().frame_rate;
+  const std::int64_t second = ceil(frame_rate).get_si();
+  const Cues cues = cues_of(film);
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < film.segments().size(); ++i) {
+    const FrameRange shot = film.shot(i);
+    Cues shown;
+    // The first cue may have begun in the shot before.
+    for (auto cue = std::prev(cues.upper_bound(shot.begin)); cue != cues.lower_bound(shot.end);
+         ++cue) {
+      shown[std::max(cue->first, shot.begin) - shot.begin] = cue->second;
+    }
+    files.push_back(file_of(shown, shot.count() + second, frame_rate));
+  }
+  return files;
+}
+
+std::string chapters(const Film& film) {
+  Cues titles;
+  for (const Part& part : parts_of(film)) titles[part.placed.first_seen()] = name_of(part);
+  return file_of(titles, film.frame_count(), film.view().frame_rate);
 }
 
 }  // namespace piblocks

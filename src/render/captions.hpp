@@ -1,8 +1,9 @@
 // What a film says, for people who cannot hear it or see it well.
-// In: a film. Out: captions.
+// In: a film. Out: captions, chapters.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/film.hpp"
 
@@ -22,8 +23,11 @@ enum class CaptionFormat { webvtt, subrip };
 /// diagram proves. Of compared runs captions give the names, then each count when it is reached.
 std::string captions(const Film& film, CaptionFormat format = CaptionFormat::webvtt);
 
-/// The captions as an address that has them in it: browsers load none from beside a page that is
-/// opened from a folder.
-std::string captions_address(const Film& film);
+/// The same as WebVTT for each Film::shot(), in seconds of the shot. The last caption stays as long
+/// as the last frame is shown.
+std::vector<std::string> shot_captions(const Film& film);
+
+/// WebVTT: the name of each segment, from the middle of its fade on.
+std::string chapters(const Film& film);
 
 }  // namespace piblocks

@@ -108,6 +108,14 @@ std::string names_of(const Part& part, std::string_view between) {
   return fmt::format("{}", fmt::join(names, between));
 }
 
+std::string name_of(const Part& part) {
+  if (part.runs().empty()) return words_of(part.segment().card().lines, " / ");
+  const Scene& scene = part.runs().front().scene();
+  const bool has_diagram = part.runs().size() == 1 && !scene.show.panels.empty();
+  if (!has_diagram || !own_title(scene).empty()) return names_of(part, ", ");
+  return fmt::format("{}: {}", names_of(part, ", "), exact_text(scene.show.panels.front()));
+}
+
 std::string words_of(const std::vector<std::string>& lines, std::string_view between) {
   std::vector<std::string> words;
   words.reserve(lines.size());

@@ -77,6 +77,10 @@ std::string name_of(const FilmRun& run);
 /// The names of all runs of a part.
 std::string names_of(const Part& part, std::string_view between);
 
+/// What a part is called in a list of them: the names of its runs, beside a diagram of one without
+/// a title; or the words of its card.
+std::string name_of(const Part& part);
+
 /// The lines of a card.
 std::string words_of(const std::vector<std::string>& lines, std::string_view between);
 

@@ -93,7 +93,7 @@ void write_page(const Film& film, const fs::path& video, OutputFile& page) {
       fmt::arg("rate", rate.get_num().get_str() + "/" + rate.get_den().get_str()),
       fmt::arg("frames", film.frame_count()), fmt::arg("loop", loop_attribute(film))));
   add_video(video, page);
-  page.write(fmt::format(kFoot, fmt::arg("captions", captions_address(film)),
+  page.write(fmt::format(kFoot, fmt::arg("captions", data_address("text/vtt", captions(film))),
                          fmt::arg("description", escaped(describe_film(film))),
                          fmt::arg("script", kPageScript)));
 }

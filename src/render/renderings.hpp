@@ -28,11 +28,19 @@ Film film_of(const RenderJob& job, const std::stop_token& stop);
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
+/// The same of some frames alone, numbered from 0.
+/// @param sound  the film's, of which this rendering takes the next samples; null if the job has
+/// none
+Rendered render_shot(const RenderJob& job, const Film& film, const FrameRange& frames,
+                     SampleSource* sound, const OnProgress& on_progress,
+                     const std::stop_token& stop);
+
 /// What the bytes of a rendering depend on: the header of all its shards, without their number.
 ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count);
 
 /// Renders the job's video into the bundle's folder, with poster.png, captions.vtt, alt.txt,
-/// latex.tex and reveal.html beside it.
+/// latex.tex and reveal.html beside it; of a storyboard the video and the last picture of each
+/// shot, chapters.vtt and impress.fodp, too.
 /// @throws UsageError if the output is no MP4 by a plain name, or a part is asked for; as render()
 Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop);

@@ -1,6 +1,7 @@
 #include "render/video_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <vector>
 
@@ -88,6 +89,18 @@ std::string describe_briefly(const ShownRun& run) {
   return text;
 }
 
+std::string describe(const Part& part) {
+  const auto runs = part.runs();
+  if (runs.empty()) {
+    const auto& [lines, length_s, becomes] = part.segment().card();
+    return fmt::format("“{}”.", words_of(becomes.empty() ? lines : becomes, " / "));
+  }
+  std::vector<std::string> sentences;
+  if (runs.size() > 1) sentences.push_back(fmt::format("{} runs at once.", runs.size()));
+  for (const FilmRun& run : runs) sentences.push_back(describe_briefly(shown(run, part)));
+  return fmt::format("{}", fmt::join(sentences, " "));
+}
+
 }  // namespace
 
 std::string title_of(const Film& film) {
@@ -107,17 +120,16 @@ std::string describe_film(const Film& film) {
     return describe_scene(shown(film.scene()->runs().front(), parts.front()));
   }
   std::string text = fmt::format("A film in {}.", counted(std::ssize(parts), "part"));
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto runs = parts[i].runs();
-    text += fmt::format(" Part {}.", i + 1);
-    if (runs.empty()) {
-      const auto& [lines, length_s, becomes] = parts[i].segment().card();
-      text += fmt::format(" “{}”.", words_of(becomes.empty() ? lines : becomes, " / "));
-    }
-    if (runs.size() > 1) text += fmt::format(" {} runs at once.", runs.size());
-    for (const FilmRun& run : runs) text += " " + describe_briefly(shown(run, parts[i]));
+  for (int number = 1; const Part& part : parts) {
+    text += fmt::format(" Part {}. {}", number++, describe(part));
   }
   return text;
+}
+
+std::vector<std::string> describe_segments(const Film& film) {
+  std::vector<std::string> texts;
+  for (const Part& part : parts_of(film)) texts.push_back(describe(part));
+  return texts;
 }
 
 const char* loop_attribute(const Film& film) {

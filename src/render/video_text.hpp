@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/film.hpp"
 
@@ -17,6 +18,9 @@ std::string title_of(const Film& film);
 /// what its diagram proves. Of a storyboard the words of each card, and for each run its title, the
 /// bodies, the end of the count and what the diagram proves, in the order of the film.
 std::string describe_film(const Film& film);
+
+/// What describe_film() says of each segment of a storyboard.
+std::vector<std::string> describe_segments(const Film& film);
 
 /// The attribute of <video> for a film that goes on from its end to its beginning; else empty.
 const char* loop_attribute(const Film& film);
