@@ -8,6 +8,7 @@
 #include <piblocks/script.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -51,9 +52,16 @@ std::vector<std::string> bundle_files(const RenderJob& job);
 /// Whether an output of this name is a page: `*.html`.
 bool is_page(const std::string& output);
 
+/// How large a video becomes is known when it is there, so this is asked again and again.
+/// @param folder  with the video, whatever its name is while it is written
+/// @throws UsageError if a page with this video is larger than browsers load.
+void check_page_size(const std::string& page, const std::filesystem::path& folder,
+                     const Progress& progress);
+
 /// Renders the job's video as MP4, to the bytes that an output `*.mp4` would have, and the page
 /// that holds it.
-/// @throws UsageError if a part is asked for, or the background is transparent; as render()
+/// @throws UsageError if a part is asked for, or the background is transparent; as check_page_size()
+///         and render()
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
