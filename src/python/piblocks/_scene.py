@@ -370,7 +370,8 @@ class Scene:
         :param plays: how often a GIF or APNG plays (default: for ever).
         :param for_: size, rate and background that suit "powerpoint", "web", ...
         :param part: (2, 3) renders the second of three shares, for ``join``.
-        :param bundle: a folder for the video, a poster, captions, and snippets for slides.
+        :param bundle: a folder for the video, a poster, captions, and slides; of a storyboard
+            also a video for each part.
         :param overwrite: lets pictures of a sequence, and files of a bundle or part, replace files
             that no earlier run has made.
         :raises UsageError: DrawError, MediaError, IoError, SimulationError, KeyboardInterrupt
