@@ -144,6 +144,8 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
     on_progress(progress);
   };
   Rendered rendered = render_film(video, film, report, stop);
+  check_page_size(job.output, files.temporary_folder(),
+                  {rendered.frame_count, rendered.frame_count});
   StepClock clock(job.profile, Step::write);
   write_page(film, video.output, page, stop);
   check_stop(stop);
