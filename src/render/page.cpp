@@ -73,7 +73,7 @@ void check_page(const RenderJob& job) {
 }
 
 /// Chromium and Firefox take addresses of at most 2^29 characters, four for three bytes.
-constexpr std::uintmax_t kMostVideo_MB = 400;
+constexpr std::uintmax_t kMostVideo_bytes = 400'000'000;
 
 /// Piece by piece, however long the video is.
 void add_video(const fs::path& path, OutputFile& page) {
@@ -120,12 +120,12 @@ void check_page_size(const std::string& page, const fs::path& folder, const Prog
     const std::uintmax_t bytes = is_file ? entry.file_size(gone) : 0;
     if (!gone) size += bytes;
   }
-  if (size <= kMostVideo_MB * 1'000'000) return;
+  if (size <= kMostVideo_bytes) return;
   throw UsageError(
       fmt::format("page: '{}' is too large after {} of {} frames: browsers play at most {} MB of "
                   "video inside a "
                   "page; write an MP4, perhaps with --bundle, or choose a smaller size",
-                  page, progress.frames_done, progress.frame_count, kMostVideo_MB));
+                  page, progress.frames_done, progress.frame_count, kMostVideo_bytes / 1'000'000));
 }
 
 bool is_page(const std::string& output) { return has_ending(output, ".html"); }
