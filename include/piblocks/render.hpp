@@ -31,7 +31,8 @@ struct Shard {
 };
 
 /// A folder for a video under the name of the job's output, and for what a lecture needs beside it:
-/// poster, captions, a text for those who cannot see it, ways to show it.
+/// poster, captions, a text for those who cannot see it, ways to show it. Of a storyboard also a
+/// video of each part, so that a lecture can stop after it, in about twice the processor time.
 struct Bundle {
   std::string folder;
   /// What the poster shows; without it, the frame that comes furthest in time. Of a storyboard it

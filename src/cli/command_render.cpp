@@ -73,7 +73,8 @@ void add_run_options(Command& command) {
                     "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
   command.add_value("--bundle", "DIR",
                     "Write OUT, an MP4, into DIR, with a poster, captions, alt text\n"
-                    "and snippets for LaTeX beamer and reveal.js beside it");
+                    "and slides for LaTeX beamer and reveal.js beside it; of a\n"
+                    "storyboard also a video and a slide for each part");
   command.add_value("--poster", "T",
                     "Instant that the poster shows (default: the last frame; of a\n"
                     "storyboard, that of the last run with a diagram)");

@@ -178,4 +178,12 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
+std::string data_address(std::string_view type, std::span<const std::uint8_t> bytes) {
+  return fmt::format("data:{};base64,{}", type, base64(bytes));
+}
+
+std::string data_address(std::string_view type, std::string_view text) {
+  return data_address(type, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
 }  // namespace piblocks

@@ -75,4 +75,8 @@ std::string json_text(std::string_view text);
 /// multiple of three bytes long, make up the text of the whole.
 std::string base64(std::span<const std::uint8_t> bytes);
 
+/// An address (RFC 2397) that has the bytes themselves in it. @param type  such as "image/png"
+std::string data_address(std::string_view type, std::span<const std::uint8_t> bytes);
+std::string data_address(std::string_view type, std::string_view text);
+
 }  // namespace piblocks

@@ -2,17 +2,24 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
+#include <optional>
+#include <set>
 #include <span>
 #include <string_view>
 #include <system_error>
+#include <variant>
 #include <vector>
 
 #include "core/file_set.hpp"
 #include "core/input_file.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
+#include "render/captions.hpp"
 #include "render/renderings.hpp"
+#include "render/slides.hpp"
 #include "render/video_text.hpp"
 
 namespace piblocks {
@@ -24,33 +31,17 @@ constexpr const char* kPoster = "poster.png";
 constexpr const char* kAltText = "alt.txt";
 constexpr const char* kCaptions = "captions.vtt";
 constexpr const char* kSubtitles = "captions.srt";
-constexpr const char* kLatexFile = "latex.tex";
-constexpr const char* kRevealFile = "reveal.html";
+constexpr const char* kLatex = "latex.tex";
+constexpr const char* kReveal = "reveal.html";
+constexpr std::array kFiles{kPoster, kAltText, kCaptions, kSubtitles, kLatex, kReveal};
+constexpr const char* kChapters = "chapters.vtt";
+constexpr const char* kImpress = "impress.fodp";
 
-/// As large as fits below a title, at any shape of slide and film. Without a width of its own,
-/// \movie is as large as the poster.
-constexpr std::string_view kLatex =
-    R"(% In the preamble: \usepackage{{graphicx}} \usepackage{{multimedia}}
-% A viewer that plays no videos shows the poster.
-\centering
-\movie[showcontrols]{{%
-  \includegraphics[width=\textwidth,height=0.8\textheight,keepaspectratio]{{poster.png}}}}{{{name}}}
-)";
-
-/// reveal.js sizes the video by r-stretch, and plays it when the slide is shown.
-constexpr std::string_view kReveal = R"(<section>
-  <video class="r-stretch" data-autoplay controls {loop}playsinline preload="metadata" poster="poster.png"
-         aria-label="{alt}">
-    <source src="{name}" type="video/mp4">
-    <track kind="captions" srclang="en" label="English" src="{captions}">
-  </video>
-</section>
-)";
+constexpr std::string_view kPlain =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._";
 
 /// A name that means the same in a file system, in LaTeX and in an address.
 bool is_plain(const std::string& name) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._";
   return name.find_first_not_of(kPlain) == std::string::npos && !name.starts_with('.') &&
          !name.starts_with('-');
 }
@@ -76,8 +67,24 @@ void check_bundle(const RenderJob& job) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
-void add(FileSet& files, const char* name, std::string_view text) {
+void add(FileSet& files, const std::string& name, std::string_view text) {
   files.add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+/// Shots of the film; none if it has one segment.
+std::size_t shots_of(const Script& script) {
+  const auto* story = std::get_if<Storyboard>(&script);
+  return story == nullptr || story->segments.size() == 1 ? 0 : story->segments.size();
+}
+
+/// What a storyboard has beyond the files of a scene.
+std::vector<std::string> files_of_shots(const std::string& video, std::size_t shots) {
+  if (shots == 0) return {};
+  std::vector<std::string> names{kChapters, kImpress};
+  for (std::size_t i = 1; i <= shots; ++i) {
+    for (const char* ending : {".mp4", ".png"}) names.push_back(shot_name(video, i, ending));
+  }
+  return names;
 }
 
 /// How much a segment proves: with a diagram more than without, with a run more than a card.
@@ -103,31 +110,49 @@ void write_poster(const RenderJob& job, const Film& film, FileSet& files,
 }
 
 void write_texts(const RenderJob& job, const Film& film, FileSet& files) {
-  const std::string alt = describe_film(film);
-  add(files, kAltText, alt + "\n");
+  add(files, kAltText, describe_film(film) + "\n");
   add(files, kCaptions, captions(film));
   add(files, kSubtitles, captions(film, CaptionFormat::subrip));
-  add(files, kLatexFile, fmt::format(kLatex, fmt::arg("name", job.output)));
-  add(files, kRevealFile,
-      fmt::format(kReveal, fmt::arg("name", job.output), fmt::arg("alt", escaped(alt)),
-                  fmt::arg("loop", loop_attribute(film)),
-                  fmt::arg("captions", captions_address(film))));
+  add(files, kLatex, latex_slides(film, job.output));
+  add(files, kReveal, reveal_slides(film, job.output));
+  if (shots_of(job.script) == 0) return;
+  add(files, kChapters, chapters(film));
+  add(files, kImpress, impress_slides(film, job.output));
 }
 
-/// Whether the folder has the bundle of an earlier run.
-bool has_bundle(const fs::path& folder) {
-  const std::string_view expected = kLatex.substr(0, kLatex.find('{'));
-  return beginning_of(folder / kLatexFile, expected.size()) == expected;
-}
+/// The bundle that an earlier run has left in the folder.
+class EarlierBundle {
+ public:
+  explicit EarlierBundle(const fs::path& folder) {
+    constexpr std::size_t kMost_bytes = std::size_t{1} << 20;
+    const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kLatex, kMost_bytes);
+    const std::string text(bytes.begin(), bytes.end());
+    is_there_ = text.starts_with(beginning_of_latex());
+    for (auto at = text.find_first_of(kPlain); is_there_ && at < text.size();) {
+      const std::size_t end = text.find_first_not_of(kPlain, at);
+      words_.insert(text.substr(at, end - at));
+      at = text.find_first_of(kPlain, end);
+    }
+  }
+
+  /// Whether it has a file of this name, which is one of bundle_files().
+  bool has(const std::string& name) const {
+    return is_there_ && (std::ranges::find(kFiles, name) != kFiles.end() || words_.contains(name));
+  }
+
+ private:
+  bool is_there_ = false;
+  std::set<std::string> words_;  // of the text for beamer, which names the files of all shots
+};
 
 /// Checks all but the video, whose name the user has chosen.
 /// @throws UsageError if one of them would replace a file that is not from an earlier bundle.
-void check_names(const Bundle& bundle) {
-  if (has_bundle(bundle.folder)) return;
+void check_names(const RenderJob& job, const EarlierBundle& earlier) {
   std::error_code unknown;
-  for (const char* name : {kPoster, kAltText, kCaptions, kSubtitles, kLatexFile, kRevealFile}) {
-    const fs::path path = fs::path(bundle.folder) / name;
-    if (!fs::exists(path, unknown)) continue;
+  const std::vector<std::string> names = bundle_files(job);
+  for (const std::string& name : std::span(names).subspan(1)) {
+    const fs::path path = fs::path(job.bundle->folder) / name;
+    if (earlier.has(name) || !fs::exists(path, unknown)) continue;
     throw UsageError(fmt::format(
         "bundle: '{}' is there, but not from an earlier bundle; use another folder, or --overwrite "
         "to replace it",
@@ -135,24 +160,78 @@ void check_names(const Bundle& bundle) {
   }
 }
 
+/// Files of shots that the earlier bundle of this video has, and the new one has not.
+void remove_rest(const RenderJob& job, const EarlierBundle& earlier, FileSet& files) {
+  const std::vector<std::string> names = bundle_files(job);
+  for (const std::string& name : files_of_shots(job.output, kMaxSegments)) {
+    if (earlier.has(name) && std::ranges::find(names, name) == names.end()) files.remove(name);
+  }
+}
+
+void add(Profile& sum, const Profile& more) {
+  for (std::size_t i = 0; i < sum.steps.size(); ++i) sum.steps[i] += more.steps[i];
+  sum.total_s = more.total_s;
+  sum.chunk_methods.insert(sum.chunk_methods.end(), more.chunk_methods.begin(),
+                           more.chunk_methods.end());
+}
+
+/// The video of each shot, and its last picture.
+Profile render_shots(RenderJob job, const Film& film, FileSet& files, const OnProgress& on_progress,
+                     const std::stop_token& stop) {
+  Profile profile;
+  std::optional<FilmSound> sound;
+  if (sound_of(job.script).on) sound.emplace(film, stop, [](std::int64_t /*pairs*/) {});
+  job.max_flashes.reset();  // the whole film has been checked
+  const std::string video = job.output;
+  for (std::size_t i = 0; i < film.segments().size(); ++i) {
+    const FrameRange frames = film.shot(i);
+    files.add(shot_name(video, i + 1, ".png"), draw_png(film.frame(frames.end - 1), stop));
+    job.output = files.add(shot_name(video, i + 1, ".mp4"));
+    const auto report = [&](const Progress& shot) {
+      on_progress({frames.begin + shot.frames_done, film.frame_count()});
+    };
+    add(profile, render_shot(job, film, frames, sound ? &*sound : nullptr, report, stop).profile);
+  }
+  return profile;
+}
+
 }  // namespace
 
 std::vector<std::string> bundle_files(const RenderJob& job) {
-  return {job.output, kPoster, kAltText, kCaptions, kSubtitles, kLatexFile, kRevealFile};
+  std::vector<std::string> names{job.output};
+  names.insert(names.end(), kFiles.begin(), kFiles.end());
+  std::ranges::move(files_of_shots(job.output, shots_of(job.script)), std::back_inserter(names));
+  return names;
 }
 
 Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   check_bundle(job);
-  if (!job.overwrite) check_names(*job.bundle);
+  const EarlierBundle earlier(job.bundle->folder);
+  if (!job.overwrite) check_names(job, earlier);
   const Film film = film_of(job, stop);
   FileSet files(job.bundle->folder, "bundle");
   write_poster(job, film, files, stop);
   write_texts(job, film, files);
+  remove_rest(job, earlier, files);
+  const bool has_shots = shots_of(job.script) > 0;
+  // With shots, a frame is done when it is in the film and in a shot.
+  const auto half = [&](std::int64_t done) { on_progress({done / 2, film.frame_count()}); };
+  const auto report = [&](const Progress& progress) {
+    if (has_shots) return half(progress.frames_done);
+    on_progress(progress);
+  };
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);
-  Rendered rendered = render_film(video, film, on_progress, stop);
+  Rendered rendered = render_film(video, film, report, stop);
+  if (has_shots) {
+    video.output = job.output;
+    const auto report_shots = [&](const Progress& shots) {
+      half(shots.frame_count + shots.frames_done);
+    };
+    add(rendered.profile, render_shots(video, film, files, report_shots, stop));
+  }
   check_stop(stop);
   files.commit();
   return rendered;

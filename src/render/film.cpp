@@ -15,6 +15,7 @@
 #include "media/png/png_reader.hpp"
 #include "physics/problems.hpp"
 #include "scene/pacing.hpp"
+#include "sound/run_sound.hpp"
 
 namespace piblocks {
 namespace {
@@ -291,6 +292,12 @@ void Film::place_segments(const Storyboard& story) {
                                readable(to_integer(kMaxFrames))));
 }
 
+FrameRange Film::shot(std::size_t segment) const {
+  const bool is_last = segment + 1 == segments_.size();
+  return {segments_[segment].first_frame,
+          is_last ? frame_count_ : segments_[segment + 1].first_frame};
+}
+
 DrawList Film::frame(std::int64_t number) const {
   const auto next = std::ranges::upper_bound(segments_, number, {}, &PlacedSegment::first_frame);
   const PlacedSegment& placed = *std::prev(next);
@@ -335,6 +342,17 @@ std::size_t FilmSound::read(std::span<float> samples) {
   const std::size_t count = soundtrack_.read(samples);
   count_ += static_cast<std::int64_t>(count);
   on_samples_(count_);
+  return count;
+}
+
+std::size_t ShotSound::read(std::span<float> samples) {
+  const auto room = std::min<std::int64_t>(std::ssize(samples) / 2, left_);
+  const std::size_t count = film_.read(samples.first(2 * std::size_t(room)));
+  for (std::size_t i = 0; i < count; ++i, --left_) {
+    const auto weight = float(weight_before_cut(double(left_)));
+    samples[2 * i] *= weight;
+    samples[2 * i + 1] *= weight;
+  }
   return count;
 }
 

@@ -118,6 +118,14 @@ class FilmSegment {
   std::function<DrawList(std::int64_t number)> card_frame_;
 };
 
+/// Consecutive frames of a film.
+struct FrameRange {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+
+  std::int64_t count() const noexcept { return end - begin; }
+};
+
 /// A segment and its place in the film.
 struct PlacedSegment {
   FilmSegment segment;
@@ -143,6 +151,10 @@ class Film {
   DrawList frame(std::int64_t number) const;
   /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
   std::span<const PlacedSegment> segments() const noexcept { return segments_; }
+  FrameRange frames() const noexcept { return {0, frame_count_}; }
+  /// The frames of a segment that a lecturer shows by itself: from the first one of its own fade to
+  /// the last one before the next fade. Shots follow each other without a gap.
+  FrameRange shot(std::size_t segment) const;
   /// That of a film of one scene, whose instants are those of its run; null of a storyboard.
   const FilmSegment* scene() const noexcept {
     return is_scene_ ? &segments_.front().segment : nullptr;
@@ -169,6 +181,12 @@ inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_
   return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
 }
 
+inline SoundFormat sound_format(const FrameRange& frames, const Rational& frame_rate) {
+  SoundFormat format = sound_format(frames.end, frame_rate);
+  format.size -= sound_format(frames.begin, frame_rate).size;
+  return format;
+}
+
 /// A film's soundtrack, until it is told to stop: each run of each segment at its time, and as loud
 /// as its segment is seen. Cards are silent.
 class FilmSound final : public SampleSource {
@@ -184,6 +202,19 @@ class FilmSound final : public SampleSource {
   std::stop_token stop_;
   std::function<void(std::int64_t)> on_samples_;
   std::int64_t count_ = 0;
+};
+
+/// The next pairs of a soundtrack, which fade out so that their end does not click.
+class ShotSound final : public SampleSource {
+ public:
+  /// @param film  must outlive it.
+  ShotSound(SampleSource& film, std::int64_t pairs) : film_(film), left_(pairs) {}
+
+  std::size_t read(std::span<float> samples) override;
+
+ private:
+  SampleSource& film_;
+  std::int64_t left_;
 };
 
 }  // namespace piblocks

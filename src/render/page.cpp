@@ -14,6 +14,7 @@
 #include "core/file_set.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
+#include "render/captions.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
@@ -31,23 +32,24 @@ constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en">
 <meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; media-src data:; script-src 'sha256-{script_hash}'; style-src 'sha256-{style_hash}'; base-uri 'none'; form-action 'none'">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; media-src data:; img-src data:; script-src 'sha256-{script_hash}'; style-src 'sha256-{style_hash}'; base-uri 'none'; form-action 'none'">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}</title>
 <style>{style}</style>
 <main>
 <h1>{title}</h1>
-<video id="video" width="{width}" height="{height}" data-rate="{rate}" data-frames="{frames}" controls {loop}playsinline preload="auto" aria-label="{title}" aria-describedby="description" src="data:video/mp4;base64,)";
+<video id="video" width="{width}" height="{height}" data-rate="{rate}" data-frames="{frames}" controls {loop}playsinline preload="auto" poster="{poster}" aria-label="{title}" aria-describedby="description" src="data:video/mp4;base64,)";
 
 constexpr std::string_view kFoot = R"(">
 <track kind="captions" srclang="en" label="English" src="{captions}">
-</video>
+{chapters}</video>
 <p id="problem" role="alert"></p>
 <div id="steps" role="group" aria-label="Frames" hidden>
 <button id="previous-frame" type="button" aria-keyshortcuts=",">&minus; frame</button>
 <button id="next-frame" type="button" aria-keyshortcuts=".">+ frame</button>
 <span id="frame"></span>
 </div>
+<div id="chapters" role="group" aria-label="Chapters" hidden></div>
 <p id="description">{description}</p>
 </main>
 <script>{script}</script>
@@ -70,6 +72,9 @@ void check_page(const RenderJob& job) {
   }
 }
 
+/// Chromium and Firefox take addresses of at most 2^29 characters, four for three bytes.
+constexpr std::uintmax_t kMostVideo_bytes = 400'000'000;
+
 /// Piece by piece, however long the video is.
 void add_video(const fs::path& path, OutputFile& page) {
   std::ifstream video(path, std::ios::binary);
@@ -82,7 +87,8 @@ void add_video(const fs::path& path, OutputFile& page) {
   throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(errno)));
 }
 
-void write_page(const Film& film, const fs::path& video, OutputFile& page) {
+void write_page(const Film& film, const fs::path& video, OutputFile& page,
+                const std::stop_token& stop) {
   const View& view = film.view();
   const Rational& rate = view.frame_rate;
   page.write(fmt::format(
@@ -90,14 +96,37 @@ void write_page(const Film& film, const fs::path& video, OutputFile& page) {
       fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(film))),
       fmt::arg("width", view.width_px), fmt::arg("height", view.height_px),
       fmt::arg("rate", rate.get_num().get_str() + "/" + rate.get_den().get_str()),
-      fmt::arg("frames", film.frame_count()), fmt::arg("loop", loop_attribute(film))));
+      fmt::arg("frames", film.frame_count()), fmt::arg("loop", loop_attribute(film)),
+      fmt::arg("poster", data_address("image/png", draw_png(film.frame(0), stop)))));
   add_video(video, page);
-  page.write(fmt::format(kFoot, fmt::arg("captions", captions_address(film)),
+  const std::string chapter_track =
+      film.segments().size() == 1
+          ? ""
+          : fmt::format("<track kind=\"chapters\" srclang=\"en\" label=\"Chapters\" src=\"{}\">\n",
+                        data_address("text/vtt", chapters(film)));
+  page.write(fmt::format(kFoot, fmt::arg("chapters", chapter_track),
+                         fmt::arg("captions", data_address("text/vtt", captions(film))),
                          fmt::arg("description", escaped(describe_film(film))),
                          fmt::arg("script", kPageScript)));
 }
 
 }  // namespace
+
+void check_page_size(const std::string& page, const fs::path& folder, const Progress& progress) {
+  std::uintmax_t size = 0;
+  std::error_code gone;  // a file that takes its name has gone for a moment
+  for (const auto& entry : fs::directory_iterator(folder, gone)) {
+    const bool is_file = entry.is_regular_file(gone);
+    const std::uintmax_t bytes = is_file ? entry.file_size(gone) : 0;
+    if (!gone) size += bytes;
+  }
+  if (size <= kMostVideo_bytes) return;
+  throw UsageError(
+      fmt::format("page: '{}' is too large after {} of {} frames: browsers play at most {} MB of "
+                  "video inside a "
+                  "page; write an MP4, perhaps with --bundle, or choose a smaller size",
+                  page, progress.frames_done, progress.frame_count, kMostVideo_bytes / 1'000'000));
+}
 
 bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 
@@ -110,9 +139,15 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
   OutputFile page(files.add(path.filename()));
   RenderJob video = job;
   video.output = files.temporary_folder() / "video.mp4";
-  Rendered rendered = render_film(video, film, on_progress, stop);
+  const auto report = [&](const Progress& progress) {
+    check_page_size(job.output, files.temporary_folder(), progress);
+    on_progress(progress);
+  };
+  Rendered rendered = render_film(video, film, report, stop);
+  check_page_size(job.output, files.temporary_folder(),
+                  {rendered.frame_count, rendered.frame_count});
   StepClock clock(job.profile, Step::write);
-  write_page(film, video.output, page);
+  write_page(film, video.output, page, stop);
   check_stop(stop);
   page.finish();
   files.commit();

@@ -10,12 +10,12 @@
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
+#include "render/captions.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/flash_meter.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
-#include "render/video_text.hpp"
 #include "scene/run_log.hpp"
 
 namespace piblocks {
@@ -23,22 +23,29 @@ namespace {
 
 /// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
-  Plan(const RenderJob& job, const Film& of)
+  /// @param shared_sound  null for the film's own
+  Plan(const RenderJob& job, const Film& of, const FrameRange& shown, SampleSource* shared_sound)
       : film(of),
-        sound(soundtrack_of(job, film)),
-        output(set_up_output(job.output,
-                             {film.view().width_px, film.view().height_px, film.view().frame_rate,
-                              film.view().background == Background::transparent},
-                             job.encoder, sound, job.overwrite,
-                             job.captions_inside ? captions_of(film) : std::vector<Caption>())),
-        chunks{output.has_frames ? film.frame_count() : 0, output.frames_per_chunk} {}
+        frames(shown),
+        film_sound(shared_sound),
+        sound(soundtrack_of(job, film, frames)),
+        output(set_up_output(
+            job.output,
+            {film.view().width_px, film.view().height_px, film.view().frame_rate,
+             film.view().background == Background::transparent},
+            job.encoder, sound, job.overwrite,
+            job.captions_inside ? captions_of(film, frames) : std::vector<Caption>())),
+        chunks{output.has_frames ? frames.count() : 0, output.frames_per_chunk} {}
 
-  static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
+  static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film,
+                                                  const FrameRange& frames) {
     if (!is_sound_alone(job.output) && !sound_of(job.script).on) return std::nullopt;
-    return sound_format(film.frame_count(), film.view().frame_rate);
+    return sound_format(frames, film.view().frame_rate);
   }
 
   const Film& film;
+  FrameRange frames;
+  SampleSource* film_sound;
   std::optional<SoundFormat> sound;
   Output output;
   Chunks chunks;
@@ -83,7 +90,7 @@ class Worker {
  private:
   void add_frame(std::int64_t frame, StepClock& clock) {
     clock.enter(Step::compose);
-    DrawList list = plan_.film.frame(frame);
+    DrawList list = plan_.film.frame(plan_.frames.begin + frame);
     clock.enter(Step::paint);
     const std::span<const PixelRect> changed = canvas_.update(std::move(list));
     clock.enter(Step::convert);
@@ -167,7 +174,12 @@ SoundWork sound_of(const Plan& plan, const OnProgress& on_progress, StepClock& c
     const std::int64_t frames = plan.film.frame_count();
     on_progress({samples * frames / plan.sound->size, frames});
   };
-  SoundWork work{std::make_unique<FilmSound>(plan.film, stop, report), nullptr};
+  SoundWork work;
+  if (plan.film_sound != nullptr) {
+    work.samples = std::make_unique<ShotSound>(*plan.film_sound, plan.sound->size);
+  } else {
+    work.samples = std::make_unique<FilmSound>(plan.film, stop, report);
+  }
   work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*work.samples), clock);
   return work;
 }
@@ -197,9 +209,10 @@ Film film_of(const RenderJob& job, const std::stop_token& stop) {
               {is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures, stop});
 }
 
-Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
+namespace {
+
+Rendered render_plan(const RenderJob& job, const Plan& plan, const OnProgress& on_progress,
                      const std::stop_token& stop) {
-  const Plan plan(job, film);
   if (job.max_flashes && plan.output.has_frames) {
     check_flashes(plan.film, *job.max_flashes, stop);
   }
@@ -249,8 +262,6 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
   return rendered;
 }
 
-namespace {
-
 /// Leaves out sound, and lowers a frame rate, that the job's output cannot have.
 /// @returns a note about each change.
 std::vector<std::string> fit_to_output(RenderJob& job) {
@@ -280,6 +291,17 @@ Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
 }
 
 }  // namespace
+
+Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
+                     const std::stop_token& stop) {
+  return render_plan(job, Plan(job, film, film.frames(), nullptr), on_progress, stop);
+}
+
+Rendered render_shot(const RenderJob& job, const Film& film, const FrameRange& frames,
+                     SampleSource* sound, const OnProgress& on_progress,
+                     const std::stop_token& stop) {
+  return render_plan(job, Plan(job, film, frames, sound), on_progress, stop);
+}
 
 Rendered render(const RenderJob& job, const OnProgress& on_progress, const std::stop_token& stop) {
   RenderJob fitted = job;

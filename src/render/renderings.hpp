@@ -8,6 +8,7 @@
 #include <piblocks/script.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -28,11 +29,19 @@ Film film_of(const RenderJob& job, const std::stop_token& stop);
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
+/// The same of some frames alone, numbered from 0.
+/// @param sound  the film's, of which this rendering takes the next samples; null if the job has
+/// none
+Rendered render_shot(const RenderJob& job, const Film& film, const FrameRange& frames,
+                     SampleSource* sound, const OnProgress& on_progress,
+                     const std::stop_token& stop);
+
 /// What the bytes of a rendering depend on: the header of all its shards, without their number.
 ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count);
 
 /// Renders the job's video into the bundle's folder, with poster.png, captions.vtt, alt.txt,
-/// latex.tex and reveal.html beside it.
+/// latex.tex and reveal.html beside it; of a storyboard the video and the last picture of each
+/// shot, chapters.vtt and impress.fodp, too.
 /// @throws UsageError if the output is no MP4 by a plain name, or a part is asked for; as render()
 Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop);
@@ -43,9 +52,17 @@ std::vector<std::string> bundle_files(const RenderJob& job);
 /// Whether an output of this name is a page: `*.html`.
 bool is_page(const std::string& output);
 
+/// How large a video becomes is known when it is there, so this is asked again and again.
+/// @param folder  with the video, whatever its name is while it is written
+/// @throws UsageError if a page with this video is larger than browsers load.
+void check_page_size(const std::string& page, const std::filesystem::path& folder,
+                     const Progress& progress);
+
 /// Renders the job's video as MP4, to the bytes that an output `*.mp4` would have, and the page
 /// that holds it.
-/// @throws UsageError if a part is asked for, or the background is transparent; as render()
+/// @throws UsageError if a part is asked for, or the background is transparent; as
+/// check_page_size()
+///         and render()
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 

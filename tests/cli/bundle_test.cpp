@@ -1,6 +1,7 @@
 // render --bundle DIR: a video and what a lecture needs beside it, all or nothing.
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 
 #include "cli/cli_fixture.hpp"
@@ -242,6 +243,124 @@ TEST_F(BundleTest, HoldsTimesThatAPageCannot) {
   output_of(Arguments{"render", "scene.toml", "--quiet", "--size", "64x36", "--duration", "1",
                       "--bundle", "talk", "-o", "pi.mp4"});
   EXPECT_EQ(number_of(cues_of(contents("talk/captions.vtt")).back().text), "314");
+}
+
+/// Three shots with a cut and a fade between them.
+constexpr const char* kThreeShots = R"(
+view = { size = "128x72", fps = 20 }
+sound.on = true
+[[part]]
+card = "One"
+seconds = 0.5
+[[part]]
+digits = 1
+time.from = 1
+time.to = 4
+[[part]]
+fade = 0.5
+digits = 2
+time.to = 3
+)";
+const Arguments kStoryBundle{"render", "story.toml", "--quiet", "--bundle", "talk", "-o", "pi.mp4"};
+const Names kShotFiles{"chapters.vtt", "impress.fodp", "pi-01.mp4", "pi-01.png",
+                       "pi-02.mp4",    "pi-02.png",    "pi-03.mp4", "pi-03.png"};
+
+constexpr std::size_t kFrames = 120;
+
+class ShotsTest : public BundleTest {
+ protected:
+  ShotsTest() { write("story.toml", kThreeShots); }
+  Names found_shot_files() const {
+    Names names = names_in("talk");
+    std::erase_if(names, [](const auto& name) {
+      return std::ranges::find(kFiles, "talk/" + name) != kFiles.end();
+    });
+    return names;
+  }
+};
+
+/// The whole film has key frames at other places, so samples differ by what H.264 loses.
+TEST_F(ShotsTest, AreVideosOfTheFilmsFrames) {
+  constexpr double kLeast_db = 38;
+  output_of(kStoryBundle);
+  EXPECT_EQ(found_shot_files(), kShotFiles);
+  output_of({"render", "story.toml", "--quiet", "-o", "pi.mp4"});
+  EXPECT_TRUE(contents("talk/pi.mp4") == contents("pi.mp4"));
+  std::size_t begin = 0;
+  for (const std::string name : {"talk/pi-01", "talk/pi-02", "talk/pi-03"}) {
+    const Names frames = lines(
+        shell("ffmpeg -loglevel error -i " + name +
+              ".mp4 -i pi.mp4 -lavfi '[1:v]trim=start_frame=" + std::to_string(begin) +
+              ",setpts=PTS-STARTPTS[film];[0:v][film]psnr=stats_file=-:shortest=1' -f null -"));
+    for (const std::string& frame : frames) {
+      const double found_db = std::stod(frame.substr(frame.find("psnr_avg:") + 9));
+      EXPECT_GT(found_db, kLeast_db) << name << " " << frame;
+    }
+    begin += frames.size();
+    output_of({"still", "story.toml", "--at", std::to_string(begin - 1) + "/20", "-o", "last.png"});
+    EXPECT_TRUE(contents(name + ".png") == contents("last.png")) << name;
+    EXPECT_TRUE(contains(contents(name + ".mp4"), "mp4a")) << "it has sound";
+  }
+  EXPECT_EQ(begin, kFrames);
+}
+
+TEST_F(ShotsTest, DependOnNoThread) {
+  output_of(kStoryBundle + Arguments{"--jobs", "1"});
+  std::vector<std::string> files;
+  for (const std::string& name : kShotFiles) files.push_back(contents("talk/" + name));
+  output_of(kStoryBundle + Arguments{"--jobs", "3"});
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EXPECT_TRUE(contents("talk/" + kShotFiles[i]) == files[i]) << kShotFiles[i];
+  }
+}
+
+/// A frame counts when it is in the film and in its shot.
+TEST_F(ShotsTest, AreCountedOnce) {
+  const CommandResult result =
+      piblocks({"render", "story.toml", "--bundle", "talk", "-o", "pi.mp4"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(contains(result.err, "talk/pi.mp4: " + std::to_string(kFrames) + " frames in "))
+      << result.err;
+}
+
+TEST_F(ShotsTest, ReplaceThoseOfAnEarlierBundleAlone) {
+  std::filesystem::create_directory(folder_ / "talk");
+  write("talk/pi-02.mp4", "mine");
+  expect_refusal(kStoryBundle, "bundle: 'talk/pi-02.mp4' is there, but not from an earlier bundle");
+  std::filesystem::rename(folder_ / "talk/pi-02.mp4", folder_ / "talk/pi-04.mp4");
+  output_of(kStoryBundle);
+  write("talk/pi-02.mp4", "old");
+  output_of(kStoryBundle);
+  EXPECT_NE(contents("talk/pi-02.mp4"), "old");
+  const std::string story = kThreeShots;
+  write("story.toml", story.substr(0, story.rfind("[[part]]")));
+  output_of(kStoryBundle);
+  EXPECT_EQ(found_shot_files(), (Names{"chapters.vtt", "impress.fodp", "pi-01.mp4", "pi-01.png",
+                                       "pi-02.mp4", "pi-02.png", "pi-04.mp4"}));
+  output_of(kRender + Arguments{"--bundle", "talk"});
+  EXPECT_EQ(found_shot_files(), (Names{"pi-04.mp4"})) << "a scene has no shots";
+  EXPECT_EQ(contents("talk/pi-04.mp4"), "mine");
+  write("talk/chapters.vtt", "mine");
+  write("story.toml", story);
+  expect_refusal(kStoryBundle, "bundle: 'talk/chapters.vtt' is there");
+}
+
+TEST_F(ShotsTest, OfOnePartAreTheFilm) {
+  write("story.toml", "view = { size = '64x36', fps = 20 }\n[[part]]\ndigits = 1\ntime.to = 1\n");
+  output_of(kStoryBundle);
+  EXPECT_EQ(entries(), (Names{"story.toml"} + kFiles));
+}
+
+TEST_F(ShotsTest, LeaveNothingBehindWhenInterrupted) {
+  write("story.toml", std::string(kThreeShots) + "[[part]]\ndigits = 2\ntime.to = 600\n");
+  RunningCommand command(kStoryBundle, {.folder = folder_.path()});
+  ASSERT_TRUE(wait_until([&] {
+    const Names names = entries();
+    return std::ranges::any_of(names, [](const auto& name) { return name.ends_with("pi-04.png"); });
+  }));
+  command.send(SIGINT);
+  EXPECT_EQ(command.wait().exit_code, -SIGINT);
+  EXPECT_EQ(entries(), (Names{"story.toml"}));
 }
 
 TEST_F(BundleTest, RefusesWhatItCannotBe) {

@@ -57,9 +57,28 @@ TEST_F(PageTest, HoldsAStoryboard) {
   output_of({"render", "story.toml", "--quiet", "-o", "a.html"});
   const std::string page = contents("a.html");
   EXPECT_TRUE(contains(page, "<title>Two &lt;blocks&gt;</title>"));
+  EXPECT_TRUE(contains(page, "<track kind=\"chapters\""));
   EXPECT_TRUE(contains(page, "data-rate=\"10/1\" data-frames=\"28\" controls playsinline"));
   EXPECT_TRUE(
       contains(page, "<p id=\"description\">A film in 2 parts. Part 1. “Two &lt;blocks&gt;”"));
+}
+
+/// Another file beside the video makes it too large at once.
+TEST_F(PageTest, IsGivenUpOnceItsVideoIsTooLarge) {
+  RunningCommand command({"render", "--quiet", "--size", "320x180", "--to", "9999", "-o", "a.html"},
+                         {.folder = folder_.path()});
+  const auto has_begun = [&] {
+    const Names names = entries();
+    return !names.empty() && contains(names.back(), "video.mp4");
+  };
+  ASSERT_TRUE(wait_until(has_begun));
+  const std::filesystem::path large = folder_ / (entries().front() + "/large");
+  std::ofstream(large).flush();
+  std::filesystem::resize_file(large, 400'000'001);
+  const CommandResult result = command.wait();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(result.err.starts_with("piblocks: page: 'a.html' is too large after ")) << result.err;
+  EXPECT_EQ(entries(), Names{});
 }
 
 TEST_F(PageTest, TextsAreEscaped) {

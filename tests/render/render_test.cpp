@@ -2,11 +2,16 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
+#include <filesystem>
+#include <fstream>
+
 #include "draw/composed_pictures.hpp"
 #include "media/png/png_reader.hpp"
+#include "render/renderings.hpp"
 #include "rendered_parts.hpp"
 #include "scene/schedule.hpp"
 #include "support/decode_video.hpp"
+#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
@@ -14,6 +19,7 @@ namespace {
 using testing_support::decode_video;
 using testing_support::DecodedVideo;
 using testing_support::file_contents;
+using testing_support::message_of;
 using testing_support::Pixels;
 using testing_support::TemporaryFolder;
 
@@ -39,6 +45,22 @@ double error_of(Pixels frame, const Scene& scene, const State& state, int rows =
     pixels->words.resize(std::size_t(rows) * std::size_t(frame.width_px));
   }
   return testing_support::rgb_mean_squared_error(frame, expected);
+}
+
+TEST_F(RenderTest, APageThatNoBrowserLoadsIsRefused) {
+  const std::filesystem::path video = path("video.mp4.unfinished-1");
+  std::ofstream(video).flush();
+  std::filesystem::resize_file(video, 400'000'000);
+  EXPECT_NO_THROW(check_page_size("a.html", folder_.path(), {7, 9}));
+  std::filesystem::resize_file(video, 400'000'001);
+  EXPECT_EQ(
+      message_of<UsageError>([&] {
+        check_page_size("a.html", folder_.path(), {7, 9});
+      }),
+      "page: 'a.html' is too large after 7 of 9 frames: browsers play at most 400 MB of video "
+      "inside a page; write an MP4, perhaps with --bundle, or choose a smaller size");
+  std::filesystem::remove(video);
+  EXPECT_NO_THROW(check_page_size("a.html", folder_.path(), {7, 9}));
 }
 
 TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {

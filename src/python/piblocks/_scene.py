@@ -372,7 +372,8 @@ class Scene:
         :param captions: "inside" gives an MP4 a track of captions.
         :param for_: size, rate and background that suit "powerpoint", "web", ...
         :param part: (2, 3) renders the second of three shares, for ``join``.
-        :param bundle: a folder for the video, a poster, captions, and snippets for slides.
+        :param bundle: a folder for the video, a poster, captions, and slides; of a storyboard
+            also a video for each part.
         :param overwrite: lets pictures of a sequence, and files of a bundle or part, replace files
             that no earlier run has made.
         :raises UsageError: DrawError, MediaError, IoError, SimulationError, KeyboardInterrupt

@@ -34,6 +34,21 @@ for (const name of ["loadedmetadata", "timeupdate", "seeked"]) {
   });
 }
 
+const track = video.querySelector("track[kind=chapters]");
+if (track) {
+  track.addEventListener("load", () => {
+    for (const chapter of track.track.cues) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = chapter.text;
+      button.addEventListener("click", () => { video.currentTime = chapter.startTime + 0.5 / rate; });
+      byId("chapters").append(button);
+    }
+    byId("chapters").hidden = false;
+  });
+  track.track.mode = "hidden";
+}
+
 function sayThatItCannotPlay() {
   byId("problem").textContent = "This browser cannot play the video.";
 }

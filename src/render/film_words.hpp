@@ -1,0 +1,87 @@
+// What a film shows, and words that its description and its captions share.
+// In: a film. Out: which of its frames show each segment, what a run counts in them, names and
+// counts in plain English.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/film.hpp"
+
+namespace piblocks {
+
+/// A segment and those of its frames that show it: of a fade each neighbour has one half.
+struct Part {
+  const PlacedSegment& placed;
+  std::int64_t begin;
+  std::int64_t end;
+
+  const FilmSegment& segment() const { return placed.segment; }
+  std::span<const FilmRun> runs() const { return segment().runs(); }
+  /// What the counter of a run says, frame by frame.
+  std::vector<Integer> counts(const FilmRun& run) const;
+};
+
+std::vector<Part> parts_of(const Film& film);
+
+/// A run, and the collisions that a part of the film counts.
+struct ShownRun {
+  const Scene& scene;
+  const Log& log;
+  Integer at_end;                ///< when the film has come furthest
+  std::optional<Integer> total;  ///< of two blocks, and of all that the film shows to the end
+
+  bool is_over() const { return at_end == total; }
+  /// Whether `total` stands for infinitely many.
+  bool is_endless() const { return piblocks::is_endless(log); }
+};
+
+ShownRun shown(const FilmRun& run, const Part& part);
+
+/// "1 collision", "1,000 collisions"
+std::string collisions(const Integer& count);
+
+/// All of a run. @param is_endless  whether `total` stands for infinitely many
+std::string all_collisions(const Integer& total, bool is_endless);
+
+/// "31 collisions", "infinitely many collisions", "2 collisions to go until time 0"
+std::string last_count(const ShownRun& run);
+
+/// What the count of a run proves once it is over, in words that end with a number, and the number.
+struct Proof {
+  std::string words;
+  std::string number;
+};
+
+/// "the first 3 digits of π in base 16, 3.24"; nothing if the run counts no digits of pi.
+std::optional<Proof> pi_of(const ShownRun& run);
+
+/// Of the first diagram that proves something about two blocks.
+std::optional<Proof> diagram_proof(const ShownRun& run);
+
+/// "3 blocks", "200 discs"
+std::string bodies_of(const System& system);
+
+/// "Masses 1 and 100", "3 blocks"
+std::string bodies_name(const Log& log);
+
+/// The title that the scene has, in one line; empty without one.
+std::string own_title(const Scene& scene);
+
+/// The same, or the bodies.
+std::string name_of(const FilmRun& run);
+
+/// The names of all runs of a part.
+std::string names_of(const Part& part, std::string_view between);
+
+/// What a part is called in a list of them: the names of its runs, beside a diagram of one without
+/// a title; or the words of its card.
+std::string name_of(const Part& part);
+
+/// The lines of a card.
+std::string words_of(const std::vector<std::string>& lines, std::string_view between);
+
+}  // namespace piblocks
