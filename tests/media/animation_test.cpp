@@ -1,9 +1,11 @@
-// GIF and APNG, read back by libavcodec: every pixel, every time.
+// GIF and APNG, read back by our readers and by libavcodec: every pixel, every time.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
+#include <numeric>
+
+#include "media/gif/color_table.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/libav/color_table.hpp"
 #include "media/output/output.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
@@ -17,7 +19,7 @@ using testing_support::Pixels;
 using testing_support::random_frame;
 using testing_support::TemporaryFolder;
 
-/// The frames of a file, as libavformat shows them.
+/// The frames of a file, as they are compared.
 std::vector<Image> shown(const std::string& path) {
   std::vector<Image> frames;
   const auto reader = read_video(path);
@@ -33,6 +35,44 @@ void expect_frames(const std::string& path, std::int64_t count, const PaintFrame
   }
 }
 
+/// The seconds for which each image is shown. A GIF has hundredths behind 21 f9 04 and a byte of
+/// flags, an APNG two numbers in fcTL.
+std::vector<Rational> delays_in(const std::string& path) {
+  const bool is_gif = path.ends_with(".gif");
+  const std::string bytes = file_contents(path);
+  const auto byte = [&](std::size_t at) { return int{static_cast<unsigned char>(bytes.at(at))}; };
+  std::vector<Rational> delays;
+  const std::string mark = is_gif ? "\x21\xf9\x04" : "fcTL";
+  for (std::size_t at = 0; (at = bytes.find(mark, at)) != std::string::npos; at += 8) {
+    if (!is_gif) {
+      delays.emplace_back(256 * byte(at + 24) + byte(at + 25), 256 * byte(at + 26) + byte(at + 27));
+    } else if (byte(at + 7) == 0 && byte(at + 8) == ',') {  // else it is compressed data
+      delays.emplace_back(byte(at + 4) + 256 * byte(at + 5), 100);
+    }
+  }
+  return delays;
+}
+
+/// Whether libavcodec shows the right picture at every time, until the end.
+void expect_times(const std::string& path, const Rational& rate, std::int64_t count,
+                  const PaintFrame& paint) {
+  const testing_support::DecodedVideo video = testing_support::decode_video(path);
+  const Rational late_s(1, 200);
+  const std::vector<Rational> delays = delays_in(path);
+  const Rational end_s = std::accumulate(delays.begin(), delays.end(), Rational(0));
+  EXPECT_LE(abs(end_s - count / rate), path.ends_with(".gif") ? late_s : Rational(0));
+  auto shown = video.frames.begin();
+  for (std::int64_t i = 0; i < count; ++i) {
+    while (shown + 1 != video.frames.end() && (shown + 1)->time_s <= i / rate + late_s) ++shown;
+    ASSERT_TRUE(shown->rgb.words == paint(i).words) << "frame " << i;
+  }
+}
+
+/// How many images a file has.
+std::size_t images_in(const std::string& path) {
+  return testing_support::decode_video(path).frames.size();
+}
+
 class Animation : public testing::TestWithParam<const char*> {};
 
 TEST_P(Animation, ShowsEveryPixelOfEveryFrame) {
@@ -44,12 +84,60 @@ TEST_P(Animation, ShowsEveryPixelOfEveryFrame) {
   }
 }
 
-TEST_P(Animation, AFrameMayBeTheSameAsTheOneBefore) {
+TEST_P(Animation, AStandstillIsOneImage) {
+  TracedRandom random(61);
+  for (const char* rate : {"10", "25", "50", "24", "7"}) {
+    SCOPED_TRACE(rate);
+    const TemporaryFolder folder;
+    const VideoFormat format = {.width_px = 40, .height_px = 3, .frame_rate = Rational(rate)};
+    std::vector<std::uint32_t> pictures = {0};  // which one each frame shows
+    while (pictures.size() < 170) {
+      pictures.insert(pictures.end(), std::size_t(random.integer(1, 60)), pictures.back() + 1);
+    }
+    const PaintFrame paint = [&](std::int64_t number) {
+      return random_frame(40, 3, pictures[std::size_t(number)]);
+    };
+    const std::int64_t count = std::ssize(pictures);
+    write_frames_by_threads(folder / GetParam(), format, {}, count, paint);
+    EXPECT_EQ(images_in(folder / GetParam()), pictures.back() + 1U);
+    expect_frames(folder / GetParam(), count, paint);
+    expect_times(folder / GetParam(), format.frame_rate, count, paint);
+  }
+}
+
+/// A delay has 16 bits.
+TEST_P(Animation, ALongStandstillIsSeveralImages) {
+  const bool is_gif = std::string(GetParam()) == "a.gif";
+  for (const auto& [rate, longest] : {std::pair("1/3", is_gif ? 218 : 21845),
+                                      {"60000/1001", is_gif ? 0 : 65},
+                                      {"1/655", is_gif ? 1 : 100}}) {
+    if (longest == 0) continue;
+    SCOPED_TRACE(rate);
+    const TemporaryFolder folder;
+    const VideoFormat format = {.width_px = 40, .height_px = 30, .frame_rate = Rational(rate)};
+    const PaintFrame paint = [&](std::int64_t /*number*/) { return article_frames(format)(1); };
+    write_frames_by_threads(folder / GetParam(), format, {}, 300, paint);
+    EXPECT_EQ(images_in(folder / GetParam()), std::size_t((300 + longest - 1) / longest));
+    expect_frames(folder / GetParam(), 300, paint);
+    expect_times(folder / GetParam(), format.frame_rate, 300, paint);
+  }
+}
+
+/// Also at the beginning of a chunk.
+TEST_P(Animation, AnImageHasOnlyWhatChanges) {
   const TemporaryFolder folder;
-  const VideoFormat format = {.width_px = 40, .height_px = 30, .frame_rate = 10};
-  const PaintFrame paint = [&](std::int64_t number) { return article_frames(format)(number / 7); };
-  write_frames(folder / GetParam(), format, {}, 120, paint);
-  expect_frames(folder / GetParam(), 120, paint);
+  const VideoFormat format = {.width_px = 300, .height_px = 200, .frame_rate = 10};
+  const PaintFrame paint = [&](std::int64_t number) {
+    Pixels pixels(300, 200);
+    for (auto& word : pixels.words) word = 0xffffffff;
+    for (int x = 0; x < 5; ++x) pixels.at(int(number) + x, 77) = 0xff2654cc;
+    return pixels;
+  };
+  write_frames(folder / GetParam(), format, {}, 1, paint);
+  const auto first = file_contents(folder / GetParam()).size();
+  write_frames(folder / GetParam(), format, {}, 200, paint);
+  EXPECT_LT(file_contents(folder / GetParam()).size(), first + 199 * 90);
+  expect_times(folder / GetParam(), 10, 200, paint);
 }
 
 /// A GIF that plays once does not speak of it; else the number is that of repetitions.
@@ -81,27 +169,44 @@ TEST(Apng, HoldsAnyColours) {
   expect_frames(folder / "a.apng", 70, random_frames(format));
 }
 
-/// Delays in the file, in the order of its frames: behind 21 f9 04 and a byte of flags.
-std::vector<int> gif_delays(const std::string& bytes) {
-  std::vector<int> delays;
-  for (std::size_t at = 0; (at = bytes.find("\x21\xf9\x04", at)) != std::string::npos; at += 8) {
-    delays.push_back(static_cast<unsigned char>(bytes.at(at + 4)) +
-                     256 * static_cast<unsigned char>(bytes.at(at + 5)));
+/// Images of up to 192 colours more share a table, each of the others has its own; all sizes of
+/// codes.
+TEST(Gif, HoldsAnyPixelsOf256Colours) {
+  TracedRandom random(89);
+  const TemporaryFolder folder;
+  const VideoFormat format = {.width_px = 230, .height_px = 170, .frame_rate = 10};
+  std::vector<Pixels> pictures(1, random_frame(230, 170, 0));
+  for (auto& word : pictures[0].words) word &= 0xffc0e0c0;  // 32 colours
+  for (const int colours : {1, 2, 3, 4, 5, 17, 100, 192, 150, 255, 256, 100, 256, 2}) {
+    Pixels next = random_frame(230, 170, std::uint32_t(pictures.size()));
+    const auto salt = std::uint32_t(random.integer(0, 0xffff)) << 8;
+    const bool is_noise = random.integer(0, 1) == 1;
+    for (std::size_t i = 0; i < next.words.size(); ++i) {
+      const bool is_kept = colours < 256 && next.words[i] >> 20 & 1;
+      const auto value = is_noise ? next.words[i] % std::uint32_t(colours)
+                                  : std::uint32_t(i / 7) % std::uint32_t(colours);
+      next.words[i] = is_kept ? pictures.back().words[i] : 0xff000000 | (salt + value);
+    }
+    pictures.push_back(next);
   }
-  return delays;
+  const PaintFrame paint = [&](std::int64_t number) { return pictures[std::size_t(number)]; };
+  const auto count = std::ssize(pictures);
+  write_frames(folder / "a.gif", format, {}, count, paint);
+  expect_frames(folder / "a.gif", count, paint);
+  expect_times(folder / "a.gif", 10, count, paint);
 }
 
 TEST(Gif, TimesDoNotDrift) {
   for (const char* rate : {"50", "48", "30", "30000/1001", "24", "7", "1/3"}) {
     const TemporaryFolder folder;
     const VideoFormat format = {.width_px = 8, .height_px = 6, .frame_rate = Rational(rate)};
-    write_frames(folder / "a.gif", format, {}, 240, article_frames(format));
-    const std::vector<int> delays = gif_delays(file_contents(folder / "a.gif"));
+    write_frames(folder / "a.gif", format, {}, 240, random_frames(format));
+    const std::vector<Rational> delays = delays_in(folder / "a.gif");
     ASSERT_EQ(delays.size(), 240u) << rate;
     Rational time_cs = 0;
     for (std::size_t i = 0; i < delays.size(); ++i) {
-      EXPECT_GE(delays[i], 2) << rate;
-      time_cs += delays[i];
+      EXPECT_GE(100 * delays[i], 2) << rate;
+      time_cs += 100 * delays[i];
       const Rational late_cs = time_cs - 100 * Rational(i + 1) / format.frame_rate;
       EXPECT_LE(abs(late_cs), Rational(1, 2)) << rate << ", frame " << i;
     }

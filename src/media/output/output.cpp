@@ -46,7 +46,7 @@ constexpr std::array kOutputKinds = {
     OutputKind{".mp4", mp4_output, kPictures | kSettings | kSound},
     OutputKind{".mov", by_module<&AvModule::mov_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
-    OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures | kPlays},
+    OutputKind{".gif", gif_output, kPictures | kPlays},
     OutputKind{".apng", apng_output, kPictures | kAlpha | kPlays},
     OutputKind{".png", png_output, kPictures | kAlpha | kNumbers,
                " with a number field such as %06d"},
