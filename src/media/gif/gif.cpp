@@ -20,57 +20,34 @@ namespace {
 
 constexpr int kMaxDelay_cs = 65535;
 constexpr std::size_t kMaxColors = 256;
+/// Of the images that GifEncoder makes: the place, and all that is before the colours.
+constexpr std::size_t kPlace_bytes = 8;
+constexpr std::size_t kHead_bytes = 12;
 using Colors = std::vector<std::uint32_t>;  // 0x00RRGGBB
 
-/// An image before it is known how long it is shown, and whose colour table it uses.
-struct GifImage {
-  PixelRect rect = {};
-  Colors colors = {};
-  bool has_transparent = false;  ///< pixels; their value follows that of the last colour
-  std::vector<LzwCode> codes = {};
-};
-
-Bytes packed(const GifImage& image) {
-  Bytes bytes;
-  for (const int value :
-       {image.rect.x_px, image.rect.y_px, image.rect.width_px, image.rect.height_px,
-        int(image.colors.size()), int(image.has_transparent)}) {
-    append_little_endian(bytes, std::uint64_t(value), 2);
-  }
-  for (const std::uint32_t color : image.colors) append_little_endian(bytes, color, 3);
-  for (const LzwCode code : image.codes) append_little_endian(bytes, code, 2);
-  return bytes;
+void append_colors(Bytes& bytes, const Colors& colors) {
+  for (const std::uint32_t color : colors) append_big_endian(bytes, color, 3);
 }
 
-GifImage unpacked(ByteSpan bytes) {
-  const auto take = [&](std::size_t size_bytes) {
-    const std::uint64_t value = from_little_endian(bytes.first(size_bytes));
-    bytes = bytes.subspan(size_bytes);
-    return value;
-  };
-  GifImage image;
-  for (int* const value :
-       {&image.rect.x_px, &image.rect.y_px, &image.rect.width_px, &image.rect.height_px}) {
-    *value = int(take(2));
-  }
-  image.colors.resize(take(2));
-  image.has_transparent = take(2) != 0;
-  for (std::uint32_t& color : image.colors) color = std::uint32_t(take(3));
-  while (!bytes.empty()) image.codes.push_back(LzwCode(take(2)));
-  return image;
-}
-
+/// An image before it is known how long it is shown, and which colour table it uses: its place and
+/// size, the number of its colours, whether one more value of pixels is transparent, the colours,
+/// the codes of its pixels.
 class GifEncoder final : public AnimationEncoder {
  public:
   using AnimationEncoder::AnimationEncoder;
 
  private:
   Bytes encode_image(const ChangedPicture& picture) override {
-    GifImage image{.rect = picture.changed()};
-    image.has_transparent = choose_colors(picture, image.rect);
-    image.colors = colors_.colors();
-    image.codes = lzw_codes(values_of(picture, image.rect));
-    return packed(image);
+    const PixelRect rect = picture.changed();
+    const bool has_transparent = choose_colors(picture, rect);
+    Bytes bytes;
+    for (const int value : {rect.x_px, rect.y_px, rect.width_px, rect.height_px,
+                            int(colors_.colors().size()), int(has_transparent)}) {
+      append_little_endian(bytes, std::uint64_t(value), 2);
+    }
+    append_colors(bytes, colors_.colors());
+    append_lzw_codes(bytes, values_of(picture, rect));
+    return bytes;
   }
   /// Chooses colours for the pixels that have changed. @return whether there are others.
   bool choose_colors(const ChangedPicture& picture, const PixelRect& rect) {
@@ -108,38 +85,6 @@ class GifEncoder final : public AnimationEncoder {
   Bytes values_;
 };
 
-/// The colours that images share: those of the first images for which there is room.
-class SharedColors {
- public:
-  /// The places of these colours, then that of the transparent one, which is 0 so that images of
-  /// few colours need few bits; nothing if they do not all have a place.
-  std::optional<Bytes> indices_of(const Colors& wanted) {
-    // Beside an image of more colours there would be no room for another.
-    constexpr std::size_t kMaxNew = 192;
-    const std::size_t before = colors_.size();
-    Bytes indices;
-    for (const std::uint32_t color : wanted) {
-      const auto found = std::find(colors_.begin() + 1, colors_.end(), color);
-      indices.push_back(std::uint8_t(found - colors_.begin()));
-      if (found == colors_.end()) colors_.push_back(color);
-    }
-    indices.push_back(0);
-    if (colors_.size() <= std::min(kMaxColors, before + kMaxNew)) return indices;
-    colors_.resize(before);
-    return std::nullopt;
-  }
-  const Colors& colors() const { return colors_; }
-
- private:
-  Colors colors_ = {0};
-};
-
-void append_colors(Bytes& bytes, const Colors& colors, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    append_big_endian(bytes, i < colors.size() ? colors[i] : 0, 3);
-  }
-}
-
 void append_application(Bytes& bytes, std::string_view name, ByteSpan data) {
   append(bytes, std::array<std::uint8_t, 3>{0x21, 0xff, 11});
   append(bytes, name);
@@ -157,7 +102,7 @@ Bytes header_of(const VideoFormat& format, int plays) {
   append_little_endian(bytes, std::uint64_t(format.width_px), 2);
   append_little_endian(bytes, std::uint64_t(format.height_px), 2);
   append(bytes, std::array<std::uint8_t, 3>{0xf7, 0, 0});  // 8 bits a sample, 256 colours
-  append_colors(bytes, {}, kMaxColors);                    // write_end() knows them
+  append_colors(bytes, Colors(kMaxColors));                // write_end() knows them
   // Netscape's extension, which every viewer knows: how often to repeat, 0 for ever. Without it a
   // GIF plays once.
   if (plays != 1) {
@@ -171,59 +116,86 @@ Bytes header_of(const VideoFormat& format, int plays) {
   return bytes;
 }
 
+/// @param image  as GifEncoder makes it
+std::size_t colors_in(ByteSpan image) {
+  return std::size_t(from_little_endian(image.subspan(kPlace_bytes, 2)));
+}
+
+/// @param image    as GifEncoder makes it
 /// @param indices  of the values of pixels in the shared colour table; nothing if the image needs
 ///                 one of its own
-Bytes image_bytes(const GifImage& image, std::optional<Bytes> indices, std::uint64_t delay_cs) {
+Bytes image_bytes(ByteSpan image, std::optional<Bytes> indices, std::uint64_t delay_cs) {
+  const std::size_t colors = colors_in(image);
+  const bool has_transparent = image[10] != 0;
   const bool is_shared = indices.has_value();
   if (!is_shared) {
-    indices.emplace(image.colors.size() + 1);
+    indices.emplace(colors + 1);
     std::iota(indices->begin(), indices->end(), std::uint8_t{0});
   }
-  if (!image.has_transparent) indices->pop_back();
+  if (!has_transparent) indices->pop_back();
   const int bits = std::max(1, int(std::bit_width(unsigned{*std::ranges::max_element(*indices)})));
   Bytes bytes;
   append(bytes, std::array<std::uint8_t, 3>{0x21, 0xf9, 4});
-  bytes.push_back(image.has_transparent ? 0x05 : 0x04);  // what it leaves out stays
+  bytes.push_back(has_transparent ? 0x05 : 0x04);  // what it leaves out stays
   append_little_endian(bytes, delay_cs, 2);
   append(bytes, std::array<std::uint8_t, 3>{indices->back(), 0, 0x2c});
-  for (const int value :
-       {image.rect.x_px, image.rect.y_px, image.rect.width_px, image.rect.height_px}) {
-    append_little_endian(bytes, std::uint64_t(value), 2);
-  }
+  append(bytes, image.first(kPlace_bytes));
   bytes.push_back(is_shared ? 0 : std::uint8_t(0x80 | (bits - 1)));
-  if (!is_shared) append_colors(bytes, image.colors, std::size_t{1} << bits);
-  append_lzw(bytes, image.codes, *indices, std::max(2, bits));
+  if (!is_shared) {
+    append(bytes, image.subspan(kHead_bytes, 3 * colors));
+    append_colors(bytes, Colors((std::size_t{1} << bits) - colors));
+  }
+  append_lzw(bytes, image.subspan(kHead_bytes + 3 * colors), *indices, std::max(2, bits));
   return bytes;
 }
 
 class GifSink final : public AnimationSink {
  public:
   explicit GifSink(const OutputRequest& request)
-      : AnimationSink(request.name), rate_(request.format.frame_rate) {
+      : AnimationSink(request.name, kHead_bytes), rate_(request.format.frame_rate) {
     file().write(header_of(request.format, request.settings.plays.value_or(0)));
   }
 
  private:
-  void write_image(Bytes bytes, std::int64_t first, std::int64_t end) override {
-    const GifImage image = unpacked(bytes);
+  void write_image(Bytes image, std::int64_t first, std::int64_t end) override {
+    if (image.size() < kHead_bytes + 3 * colors_in(image)) {
+      throw MediaError("gif: an image is cut off");
+    }
     const Integer delay_cs = tick_of(end, rate_, 100) - tick_of(first, rate_, 100);
-    bytes = image_bytes(image, std::nullopt, delay_cs.get_ui());
+    Bytes bytes = image_bytes(image, std::nullopt, delay_cs.get_ui());
     // The first image has many colours that no other one has.
-    if (auto indices = first == 0 ? std::nullopt : shared_.indices_of(image.colors)) {
+    if (auto indices = first == 0 ? std::nullopt : shared_indices_of(image)) {
       Bytes other = image_bytes(image, std::move(indices), delay_cs.get_ui());
       if (other.size() < bytes.size()) bytes = std::move(other);
     }
     file().write(bytes);
   }
+  /// The places of an image's colours in the table, which takes them if there is room; then that of
+  /// the transparent one, which is 0 so that images of few colours need few bits.
+  std::optional<Bytes> shared_indices_of(ByteSpan image) {
+    constexpr std::size_t kMaxNew = 192;  // beside more there would be no room for another image's
+    const std::size_t before = shared_.size();
+    Bytes indices;
+    for (std::size_t i = 0; i < colors_in(image); ++i) {
+      const auto color = std::uint32_t(from_big_endian(image.subspan(kHead_bytes + 3 * i, 3)));
+      const auto found = std::find(shared_.begin() + 1, shared_.end(), color);
+      indices.push_back(std::uint8_t(found - shared_.begin()));
+      if (found == shared_.end()) shared_.push_back(color);
+    }
+    indices.push_back(0);
+    if (shared_.size() <= std::min(kMaxColors, before + kMaxNew)) return indices;
+    shared_.resize(before);
+    return std::nullopt;
+  }
   void write_end() override {
     file().write(";");  // 0x3b
     Bytes colors;
-    append_colors(colors, shared_.colors(), shared_.colors().size());
+    append_colors(colors, shared_);
     file().write_at(kSharedColors_at, colors);
   }
 
   Rational rate_;
-  SharedColors shared_;
+  Colors shared_ = {0};  // the transparent one, then those of the first images with room for them
 };
 
 std::string gif_rate_problem(const Rational& rate) {

@@ -1,11 +1,14 @@
 #include "media/gif/lzw.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace piblocks {
 namespace {
 
 constexpr int kMaxWidth_bits = 12;
+using LzwCode = std::uint16_t;
+constexpr LzwCode kLzwClear = 256;
 
 /// Which string is another one and a value behind it: a hash table.
 class Strings {
@@ -46,27 +49,26 @@ class Strings {
 
 }  // namespace
 
-std::vector<LzwCode> lzw_codes(std::span<const std::uint8_t> pixels) {
+void append_lzw_codes(Bytes& bytes, ByteSpan pixels) {
   Strings strings;
-  std::vector<LzwCode> codes = {kLzwClear};
+  const auto put = [&](LzwCode code) { append_little_endian(bytes, code, 2); };
+  put(kLzwClear);
   LzwCode open = pixels.front();  // the string of the pixels since the last code
   for (const std::uint8_t value : pixels.subspan(1)) {
     const LzwCode longer = strings.find(open, value);
     if (longer == 0) {
-      codes.push_back(open);
+      put(open);
       if (!strings.add(open, value)) {
-        codes.push_back(kLzwClear);
+        put(kLzwClear);
         strings.clear();
       }
     }
     open = longer != 0 ? longer : value;
   }
-  codes.push_back(open);
-  return codes;
+  put(open);
 }
 
-void append_lzw(Bytes& bytes, std::span<const LzwCode> codes, std::span<const std::uint8_t> indices,
-                int bits) {
+void append_lzw(Bytes& bytes, ByteSpan codes, const Bytes& indices, int bits) {
   const std::uint32_t clear = 1U << bits;
   Bytes data;
   std::uint32_t held = 0;
@@ -78,8 +80,10 @@ void append_lzw(Bytes& bytes, std::span<const LzwCode> codes, std::span<const st
     for (; held_bits >= 8; held_bits -= 8, held >>= 8) data.push_back(std::uint8_t(held));
   };
   std::uint32_t last_string = 0;  // that a reader knows after the next code
-  for (const LzwCode code : codes) {
-    put(code < kLzwClear ? indices[code] : clear + code - kLzwClear + (code > kLzwClear ? 1 : 0));
+  for (; codes.size() >= 2; codes = codes.subspan(2)) {
+    const auto code = std::uint32_t(from_little_endian(codes.first(2)));
+    put(code < kLzwClear ? indices.at(code)
+                         : clear + code - kLzwClear + (code > kLzwClear ? 1 : 0));
     if (code == kLzwClear) {
       width_bits = bits + 1;
       last_string = clear + 1;

@@ -4,22 +4,18 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "media/output/bytes.hpp"
 
 namespace piblocks {
 
-/// The value of a pixel, up to 255; or kLzwClear; or a string of the table, from the next one on.
-using LzwCode = std::uint16_t;
-inline constexpr LzwCode kLzwClear = 256;
+/// Appends two bytes for each code: the value of a pixel, up to 255; or 256, which clears the table
+/// of strings; or a string of that table, from 257 on. @param pixels  at least one
+void append_lzw_codes(Bytes& bytes, ByteSpan pixels);
 
-/// @param pixels  at least one
-std::vector<LzwCode> lzw_codes(std::span<const std::uint8_t> pixels);
-
-/// Appends the data of an image. @param bits  of a pixel, 2 … 8
+/// Appends the data of an image. @param codes  as append_lzw_codes() writes them
 /// @param indices  of the colours that the values of pixels stand for
-void append_lzw(Bytes& bytes, std::span<const LzwCode> codes, std::span<const std::uint8_t> indices,
-                int bits);
+/// @param bits     of an index, 2 … 8
+void append_lzw(Bytes& bytes, ByteSpan codes, const Bytes& indices, int bits);
 
 }  // namespace piblocks

@@ -1,5 +1,7 @@
 #include "media/output/animated_output.hpp"
 
+#include <piblocks/error.hpp>
+
 namespace piblocks {
 
 void AnimationEncoder::begin(std::int64_t first_frame) {
@@ -21,6 +23,7 @@ void AnimationSink::append(const EncodedChunk& chunk) {
   counter_.take(chunk);
   for (const Packet& packet : chunk) {
     if (packet.bytes.empty()) continue;
+    if (packet.bytes.size() < least_bytes_) throw MediaError("output: an image is cut off");
     write_last(packet.pts);
     last_ = packet;
   }

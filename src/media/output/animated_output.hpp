@@ -46,8 +46,10 @@ class AnimationEncoder : public ChunkEncoder {
 /// A file of such images. Each is written when it is known how long it is shown.
 class AnimationSink : public FrameSink {
  public:
+  /// @param least_bytes  of an image
   /// @throws UsageError if the file cannot be opened.
-  explicit AnimationSink(const std::string& name) : file_(name) {}
+  AnimationSink(const std::string& name, std::size_t least_bytes)
+      : least_bytes_(least_bytes), file_(name) {}
   void append(const EncodedChunk& chunk) final;
   void finish() final;
 
@@ -60,6 +62,7 @@ class AnimationSink : public FrameSink {
   virtual void write_end() = 0;
   void write_last(std::int64_t end);
 
+  std::size_t least_bytes_;
   FrameCounter counter_;
   OutputFile file_;
   Packet last_;  // the image that is not written yet

@@ -23,6 +23,8 @@ void append_animation_control(Bytes& bytes, std::int64_t images, int plays) {
   end_png_chunk(bytes, chunk);
 }
 
+constexpr std::size_t kPlace_bytes_apng = 16;
+
 /// An image is its size and place, as fcTL has them, and its compressed rows.
 class ApngEncoder final : public AnimationEncoder {
  public:
@@ -52,8 +54,8 @@ class ApngEncoder final : public AnimationEncoder {
 
 class ApngSink final : public AnimationSink {
  public:
-  ApngSink(const OutputRequest& request)
-      : AnimationSink(request.name),
+  explicit ApngSink(const OutputRequest& request)
+      : AnimationSink(request.name, kPlace_bytes_apng),
         rate_(request.format.frame_rate),
         plays_(request.settings.plays.value_or(0)) {
     const VideoFormat& format = request.format;
@@ -72,8 +74,7 @@ class ApngSink final : public AnimationSink {
 
  private:
   void write_image(Bytes image, std::int64_t first, std::int64_t end) override {
-    constexpr std::size_t kPlace_bytes = 16;
-    const ByteSpan place = std::span(image).first(kPlace_bytes);
+    const ByteSpan place = std::span(image).first(kPlace_bytes_apng);
     Bytes bytes;
     // fcTL chunks and the fdAT chunks between them are numbered together.
     const std::size_t control = begin_png_chunk(bytes, "fcTL");
@@ -86,7 +87,7 @@ class ApngSink final : public AnimationSink {
     end_png_chunk(bytes, control);
     const std::size_t data = begin_png_chunk(bytes, first == 0 ? "IDAT" : "fdAT");
     if (first > 0) append_big_endian(bytes, next_sequence_++, 4);
-    piblocks::append(bytes, ByteSpan(image).subspan(kPlace_bytes));
+    piblocks::append(bytes, ByteSpan(image).subspan(kPlace_bytes_apng));
     end_png_chunk(bytes, data);
     file().write(bytes);
     ++images_;
