@@ -24,6 +24,7 @@ struct AvModule {
   Output (*mp4_output)(const OutputRequest& request);
   Output (*mov_output)(const OutputRequest& request);
   Output (*webm_output)(const OutputRequest& request);
+  Output (*webp_output)(const OutputRequest& request);
   Output (*framehash_output)(const OutputRequest& request);
   /// MakeSuccessor
   std::unique_ptr<ChunkEncoder> (*h264_successor)(const VideoFormat& format,

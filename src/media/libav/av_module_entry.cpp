@@ -11,6 +11,7 @@ extern "C" const piblocks::AvModule* piblocks_av_module() {
                                        .mp4_output = mp4_output_by_libav,
                                        .mov_output = mov_output,
                                        .webm_output = webm_output,
+                                       .webp_output = webp_output,
                                        .framehash_output = framehash_output,
                                        .h264_successor = h264_successor,
                                        .read_video = decode_video_file,

@@ -20,6 +20,8 @@ namespace piblocks {
 
 /// Delays are whole hundredths of a second, and viewers show less than two as ten.
 inline constexpr int kMaxFrameRate_gif = 50;
+/// Viewers show less than 11 milliseconds as 100.
+inline constexpr int kMaxFrameRate_webp = 90;
 
 /// The arguments of set_up_output(), already known to be in range.
 struct OutputRequest {
@@ -108,6 +110,7 @@ Output mov_output(const OutputRequest& request);
 Output webm_output(const OutputRequest& request);
 Output gif_output(const OutputRequest& request);
 Output apng_output(const OutputRequest& request);
+Output webp_output(const OutputRequest& request);
 Output png_output(const OutputRequest& request);
 Output y4m_output(const OutputRequest& request);
 /// A comment (X…) in the header of our y4m files: y4m has no tag for the matrix. Other programs
