@@ -158,8 +158,10 @@ class GifSink final : public AnimationSink {
 
  private:
   void write_image(Bytes image, std::int64_t first, std::int64_t end) override {
-    if (image.size() < kHead_bytes + 3 * colors_in(image)) {
-      throw MediaError("gif: an image is cut off");
+    const std::size_t colors = colors_in(image);
+    const bool has_values = colors + image[10] > 0 && colors <= kMaxColors;
+    if (!has_values || image.size() < kHead_bytes + 3 * colors) {
+      throw MediaError("gif: an image is damaged");
     }
     const Integer delay_cs = tick_of(end, rate_, 100) - tick_of(first, rate_, 100);
     Bytes bytes = image_bytes(image, std::nullopt, delay_cs.get_ui());

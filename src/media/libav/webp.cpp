@@ -15,9 +15,9 @@ namespace piblocks {
 namespace {
 
 constexpr const char* kEncoder = "libwebp";
-constexpr int kMaxSide_webp_px = 16383;  // libwebp's
+constexpr int kWebpMaxSide_px = 16383;  // libwebp's
 constexpr int kMaxDuration_ms = (1 << 24) - 1;
-constexpr std::size_t kHead_bytes_webp = 16;  // of an image, before its picture
+constexpr std::size_t kWebpHead_bytes = 16;  // of an image, before its picture
 
 /// For pictures of one size.
 AvCodecContextPtr open_webp_encoder(const PixelRect& rect) {
@@ -99,7 +99,7 @@ void append_riff_chunk(Bytes& bytes, std::string_view type, ByteSpan contents) {
 class WebpSink final : public AnimationSink {
  public:
   explicit WebpSink(const OutputRequest& request)
-      : AnimationSink(request.name, kHead_bytes_webp),
+      : AnimationSink(request.name, kWebpHead_bytes),
         name_(request.name),
         rate_(request.format.frame_rate) {
     constexpr std::uint64_t kAnimation = 0x02;
@@ -157,9 +157,9 @@ Output webp_output(const OutputRequest& request) {
   if (avcodec_find_encoder_by_name(kEncoder) == nullptr) {
     problems.add("webp: cannot find encoder 'libwebp' in libavcodec; write *.apng or *.gif");
   }
-  if (std::max(format.width_px, format.height_px) > kMaxSide_webp_px) {
+  if (std::max(format.width_px, format.height_px) > kWebpMaxSide_px) {
     problems.add(fmt::format("webp: size {}x{} is out of range: use sides of 1 to {}",
-                             format.width_px, format.height_px, kMaxSide_webp_px));
+                             format.width_px, format.height_px, kWebpMaxSide_px));
   }
   if (format.frame_rate > kMaxFrameRate_webp || 1000 / format.frame_rate > kMaxDuration_ms) {
     problems.add(

@@ -23,7 +23,7 @@ void append_animation_control(Bytes& bytes, std::int64_t images, int plays) {
   end_png_chunk(bytes, chunk);
 }
 
-constexpr std::size_t kPlace_bytes_apng = 16;
+constexpr std::size_t kApngPlace_bytes = 16;
 
 /// An image is its size and place, as fcTL has them, and its compressed rows.
 class ApngEncoder final : public AnimationEncoder {
@@ -55,7 +55,7 @@ class ApngEncoder final : public AnimationEncoder {
 class ApngSink final : public AnimationSink {
  public:
   explicit ApngSink(const OutputRequest& request)
-      : AnimationSink(request.name, kPlace_bytes_apng),
+      : AnimationSink(request.name, kApngPlace_bytes),
         rate_(request.format.frame_rate),
         plays_(request.settings.plays.value_or(0)) {
     const VideoFormat& format = request.format;
@@ -74,7 +74,7 @@ class ApngSink final : public AnimationSink {
 
  private:
   void write_image(Bytes image, std::int64_t first, std::int64_t end) override {
-    const ByteSpan place = std::span(image).first(kPlace_bytes_apng);
+    const ByteSpan place = std::span(image).first(kApngPlace_bytes);
     Bytes bytes;
     // fcTL chunks and the fdAT chunks between them are numbered together.
     const std::size_t control = begin_png_chunk(bytes, "fcTL");
@@ -87,7 +87,7 @@ class ApngSink final : public AnimationSink {
     end_png_chunk(bytes, control);
     const std::size_t data = begin_png_chunk(bytes, first == 0 ? "IDAT" : "fdAT");
     if (first > 0) append_big_endian(bytes, next_sequence_++, 4);
-    piblocks::append(bytes, ByteSpan(image).subspan(kPlace_bytes_apng));
+    piblocks::append(bytes, ByteSpan(image).subspan(kApngPlace_bytes));
     end_png_chunk(bytes, data);
     file().write(bytes);
     ++images_;
