@@ -21,7 +21,7 @@ struct EncoderSettings {
   /// Of the first of numbered pictures, 0 … kMaxStartNumber; else 1. What follows the last one then
   /// stays, as part of a longer sequence.
   std::optional<int> start_number = {};
-  /// How often a GIF or APNG plays, 1 … kMaxPlays; else for ever.
+  /// How often a GIF, APNG or WebP plays, 1 … kMaxPlays; else for ever.
   std::optional<int> plays = {};
 };
 

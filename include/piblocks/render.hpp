@@ -42,9 +42,10 @@ struct Bundle {
 
 struct RenderJob {
   Script script;
-  /// A name whose ending selects the format: `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`, `*.png`
-  /// with one number such as `%06d`, `*.y4m`, `-` (y4m on standard output), `*.framehash`, `*.wav`,
-  /// `null`, or `*.html`, a page that holds the MP4 and steps through it.
+  /// A name whose ending selects the format: `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`,
+  /// `*.webp`,
+  /// `*.png` with one number such as `%06d`, `*.y4m`, `-` (y4m on standard output), `*.framehash`,
+  /// `*.wav`, `null`, or `*.html`, a page that holds the MP4 and steps through it.
   std::string output;
   EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte

@@ -56,7 +56,7 @@ void add_encoder_options(Command& command) {
   command.add_value("--start-number", "N",
                     "Number of the first picture of a sequence (default: 1); what\n"
                     "follows the last one then stays");
-  command.add_value("--plays", "N", "How often a GIF or APNG plays (default: for ever)");
+  command.add_value("--plays", "N", "How often a GIF, APNG or WebP plays (default: for ever)");
 }
 
 void add_overwrite(Command& command) {
@@ -107,10 +107,10 @@ void define_render(Command& command) {
   SceneOptions scene(command);
   command.add_required_value("-o,--output", "OUT",
                              "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
-                             "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                             "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
-                             "NAME.html: a page with the video, captions and frame steps;\n"
-                             "for one with the program, 'piblocks page'");
+                             "NAME.apng, NAME.webp, FRAMES/%06d.png, NAME.y4m, - (y4m on\n"
+                             "standard output), NAME.framehash, null, NAME.wav: the sound\n"
+                             "alone, or NAME.html: a page with the video, captions and\n"
+                             "frame steps; for one with the program, 'piblocks page'");
   command.add_value("--for", "WHERE",
                     "Size, rate and background that suit one of:\n" + destination_names());
   scene.add_picture();

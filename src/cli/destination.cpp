@@ -19,7 +19,7 @@ const std::vector<Destination>& destinations() {
       {"keynote", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4", ".mov"}},
       {"web",
        {{"view.size", "1280x720"}, {"view.fps", "30"}},
-       {".mp4", ".webm", ".gif", ".apng", ".html"}},
+       {".mp4", ".webm", ".gif", ".apng", ".webp", ".html"}},
       {"editor",
        {{"view.size", "1920x1080"}, {"view.fps", "60"}, {"view.background", "transparent"}},
        {".mov", ".png"},

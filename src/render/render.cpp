@@ -76,11 +76,14 @@ class Worker {
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
-    encoder_->begin(plan_.chunks.begin(chunk));
     canvas_.listen(stop);
-    for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
+    const std::int64_t first = plan_.chunks.begin(chunk);
+    if (plan_.output.needs_frame_before && first > 0) take_frame(first - 1, clock);
+    encoder_->begin(first);
+    for (auto frame = first; frame < plan_.chunks.end(chunk); ++frame) {
       check_stop(stop);
-      add_frame(frame, clock);
+      take_frame(frame, clock);
+      encoder_->encode();
       frames_done_.fetch_add(1, std::memory_order_relaxed);
     }
     EncodedChunk encoded = encoder_->finish();
@@ -88,7 +91,7 @@ class Worker {
   }
 
  private:
-  void add_frame(std::int64_t frame, StepClock& clock) {
+  void take_frame(std::int64_t frame, StepClock& clock) {
     clock.enter(Step::compose);
     DrawList list = plan_.film.frame(plan_.frames.begin + frame);
     clock.enter(Step::paint);
@@ -96,7 +99,6 @@ class Worker {
     clock.enter(Step::convert);
     encoder_->take(canvas_.view(), changed);
     clock.enter(Step::encode);
-    encoder_->encode();
   }
 
   const Plan& plan_;

@@ -64,6 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                      SIGINT},
         Interruption{"TermWebm", kLong + Arguments{"-o", "new/a.webm"}, SIGTERM},
         Interruption{"IntApng", kLong + Arguments{"-o", "a.apng"}, SIGINT},
+        Interruption{"IntWebp", kLong + Arguments{"-o", "a.webp"}, SIGINT},
         Interruption{"IntGif",
                      {"render", "--quiet", "--size", "320x180", "--fps", "50", "--to", "9999", "-o",
                       "a.gif"},

@@ -29,12 +29,12 @@ TEST_F(RenderTest, WritesEveryKind) {
   EXPECT_EQ(output_of(two + Arguments{"-o", "a.y4m"}), "");
   EXPECT_EQ(output_of(two + Arguments{"-o", "a.framehash"}), "");
   EXPECT_EQ(output_of(two + Arguments{"-o", "null"}), "");
-  for (const char* output : {"a.mov", "a.webm", "a.gif", "a.apng"}) {
+  for (const char* output : {"a.mov", "a.webm", "a.gif", "a.apng", "a.webp"}) {
     EXPECT_EQ(output_of(two + Arguments{"-o", output}), "") << output;
   }
   EXPECT_EQ(entries(),
-            (Names{"a.apng", "a.framehash", "a.gif", "a.mov", "a.mp4", "a.webm", "a.y4m", "new",
-                   "new/folder", "new/folder/000001.png", "new/folder/000002.png"}));
+            (Names{"a.apng", "a.framehash", "a.gif", "a.mov", "a.mp4", "a.webm", "a.webp", "a.y4m",
+                   "new", "new/folder", "new/folder/000001.png", "new/folder/000002.png"}));
   EXPECT_EQ(contents("a.mp4").substr(4, 4), "ftyp");
   EXPECT_TRUE(contents("new/folder/000001.png").starts_with("\x89PNG"));
   EXPECT_TRUE(contents("a.y4m").starts_with("YUV4MPEG2 W64 H36 F10:1 "));

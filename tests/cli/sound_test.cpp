@@ -225,7 +225,7 @@ TEST_F(SoundTest, IsAKeyOfTheScene) {
 TEST_F(SoundTest, IsLeftOutWhereItHasNoPlace) {
   write("scene.toml", "[sound]\non = true\n[time]\nto = 1\n[view]\nfps = 5\nsize = '64x36'\n");
   for (const std::string output :
-       {"a.y4m", "-", "null", "a.framehash", "%d.png", "a.gif", "a.apng"}) {
+       {"a.y4m", "-", "null", "a.framehash", "%d.png", "a.gif", "a.apng", "a.webp"}) {
     SCOPED_TRACE(output);
     const std::string asked = refusal({"render", "--sound", "-o", output});
     EXPECT_TRUE(

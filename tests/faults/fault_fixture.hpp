@@ -46,6 +46,7 @@ inline std::vector<OutputKind> every_kind() {
           {"Webm", small_render({"--sound", "-o", "a.webm"})},
           {"Gif", small_render({"-o", "a.gif"})},
           {"Apng", small_render({"-o", "a.apng"})},
+          {"Webp", small_render({"-o", "a.webp"})},
           {"Wav", small_render({"-o", "a.wav"})},
           {"Page", small_render({"-o", "a.html"})},
           {"Png", small_render({"-o", "%06d.png"})},

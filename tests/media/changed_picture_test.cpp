@@ -41,6 +41,12 @@ TEST_F(ChangedPictureTest, KnowsTheLeastRectangleAndEachPixelOfIt) {
   EXPECT_EQ(changed_in(kWhole), kNothing);
 }
 
+TEST_F(ChangedPictureTest, EverythingMayCountAsChanged) {
+  picture_.mark_all();
+  EXPECT_EQ(picture_.changed(), kWhole);
+  EXPECT_EQ(picture_.marks(29)[39], 1);
+}
+
 TEST_F(ChangedPictureTest, LooksAtTheGivenRectanglesAlone) {
   pixels_.at(3, 3) ^= 1;
   pixels_.at(30, 20) ^= 1;

@@ -78,10 +78,11 @@ TEST(SetUpOutput, SaysWhatCanBeTransparent) {
   for (const char* name : {"out.mp4", "out.gif", "out.y4m", "-"}) {
     const std::string what = opening_error(name, format);
     EXPECT_TRUE(contains(what, std::string("'") + name + "' cannot be transparent"));
-    EXPECT_TRUE(contains(what, "*.mov, *.webm, *.apng, *.png"));
+    EXPECT_TRUE(contains(what, "*.mov, *.webm, *.apng, *.webp, *.png"));
     EXPECT_TRUE(what.ends_with(", *.framehash")) << what;
   }
-  for (const char* name : {"out.mov", "out.webm", "out.apng", "%d.png", "out.framehash"}) {
+  for (const char* name :
+       {"out.mov", "out.webm", "out.apng", "out.webp", "%d.png", "out.framehash"}) {
     EXPECT_EQ(opening_error(folder / name, format), "") << name;
   }
 }
@@ -93,6 +94,10 @@ TEST(SetUpOutput, RefusesRatesThatAPictureFileCannotTell) {
   EXPECT_EQ(opening_error(folder / "a.gif", {10, 10, 50}), "");
   EXPECT_TRUE(contains(opening_error("a.apng", {10, 10, Rational("65536/1")}), "up to 65535"));
   EXPECT_EQ(opening_error(folder / "a.apng", {10, 10, Rational("60000/1001")}), "");
+  EXPECT_TRUE(contains(opening_error("a.webp", {10, 10, 91}), "use 90 or less"));
+  EXPECT_TRUE(contains(opening_error("a.webp", {10, 10, Rational("1/16778")}), "a frame in 16777"));
+  EXPECT_TRUE(contains(opening_error("a.webp", {16384, 10, 60}), "sides of 1 to 16383"));
+  EXPECT_EQ(opening_error(folder / "a.webp", {16383, 10, 90}), "");
 }
 
 TEST(SetUpOutput, TellsWhyAnEncoderOfMovOrWebmIsNoGood) {
@@ -221,7 +226,7 @@ TEST_P(EveryFile, ReportsAFullDisk) {
 
 INSTANTIATE_TEST_SUITE_P(All, EveryFile,
                          testing::Values("a/out.mp4", "a/out.mov", "a/out.webm", "a/out.gif",
-                                         "a/out.apng", "a/%03d.png", "a/out.y4m",
+                                         "a/out.apng", "a/out.webp", "a/%03d.png", "a/out.y4m",
                                          "a/out.framehash"));
 
 TEST(NullSink, KeepsNothing) {

@@ -73,7 +73,8 @@ TEST(Wav, RefusesWhatNoHeaderCanSay) {
 
 TEST(Sound, IsRefusedWhereThereIsNone) {
   const SoundFormat sound{.rate_hz = 48000, .size = 3};
-  for (const char* name : {"a.y4m", "-", "%d.png", "a.framehash", "null", "a.gif", "a.apng"}) {
+  for (const char* name :
+       {"a.y4m", "-", "%d.png", "a.framehash", "null", "a.gif", "a.apng", "a.webp"}) {
     EXPECT_TRUE(contains(refusal_of(name, sound), "has no sound; write one of: *.mp4")) << name;
   }
   for (const char* name : {"a.mp4", "a.mov", "a.webm"}) {

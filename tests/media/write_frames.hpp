@@ -37,6 +37,7 @@ inline void add(ChunkEncoder& encoder, const ImageView& frame) {
 
 inline EncodedChunk encode_chunk(const Output& output, ChunkEncoder& encoder, std::int64_t first,
                                  std::int64_t frames, const PaintFrame& paint) {
+  if (output.needs_frame_before && first > 0) encoder.take(paint(first - 1).view());
   encoder.begin(first);
   const std::int64_t end = std::min(frames, first + output.frames_per_chunk);
   for (std::int64_t number = first; number < end; ++number) add(encoder, paint(number).view());

@@ -153,7 +153,7 @@ class Fuzzer:
                 raise piblocks.Error("enough")
 
         name = self.likely("a.mp4", "a.png", "a.gif", "a.html", "a.webm", "%02d.png", "a.wav",
-                           "a.y4m", "null", "a.framehash", "a.apng", "a.svg")
+                           "a.y4m", "null", "a.framehash", "a.apng", "a.webp", "a.svg")
         if isinstance(name, (str, bytes)) and str(name).startswith(("/", "..")):
             return
         kind = r.randrange(4)

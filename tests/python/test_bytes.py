@@ -29,6 +29,7 @@ FILM = [*SMALL, "--fps", "10", "--to", "4"]
         ("a.webm", []),
         ("a.gif", []),
         ("a.apng", ["--transparent"]),
+        ("a.webp", ["--transparent"]),
         ("a.y4m", []),
         ("a.wav", []),
         ("a.html", []),

@@ -52,7 +52,7 @@ def test_what_no_page_shows():
 
 
 def test_what_was_rendered_is_shown():
-    for name, start in (("a.mp4", "<video"), ("a.gif", "<img"), ("a.html", "<iframe"),
+    for name, start in (("a.mp4", "<video"), ("a.gif", "<img"), ("a.webp", "<img"), ("a.html", "<iframe"),
                         ("a.wav", "<audio")):
         rendered = SMALL.render(name)
         assert rendered._repr_html_().startswith(start)

@@ -53,7 +53,8 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
 }
 
 TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
-  for (const std::string name : {"a.mp4", "a.y4m", "a.framehash", "%03d.png"}) {
+  for (const std::string name :
+       {"a.mp4", "a.y4m", "a.framehash", "a.gif", "a.apng", "a.webp", "%03d.png"}) {
     render_silently({scene(), path("whole/" + name)});
     for (const int count : {1, 3, 40}) {
       RenderJob job{scene(), path("parts/" + name)};

@@ -33,7 +33,7 @@ struct AvModule {
   Output (*mp4_output)(const OutputRequest& request);
   Output (*mov_output)(const OutputRequest& request);
   Output (*webm_output)(const OutputRequest& request);
-  Output (*gif_output)(const OutputRequest& request);
+  Output (*webp_output)(const OutputRequest& request);
   Output (*framehash_output)(const OutputRequest& request);
   /// @throws UsageError if libavcodec has no encoder
   AacSound (*aac_sound)(const SoundFormat& format);

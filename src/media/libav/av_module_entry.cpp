@@ -11,7 +11,7 @@ extern "C" const piblocks::AvModule* piblocks_av_module() {
                                        .mp4_output = mp4_output_by_libav,
                                        .mov_output = mov_output,
                                        .webm_output = webm_output,
-                                       .gif_output = gif_output,
+                                       .webp_output = webp_output,
                                        .framehash_output = framehash_output,
                                        .aac_sound = aac_sound,
                                        .h264_successor = h264_successor,

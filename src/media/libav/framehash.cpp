@@ -57,7 +57,7 @@ class FramehashEncoder final : public PacketPerFrameEncoder {
       }
     }
   }
-  Bytes encode_picture(std::int64_t number, bool /*is_first*/) override {
+  Bytes encode_picture(std::int64_t number) override {
     const std::string text = (number == 0 ? file_header_ : "") +
                              fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1,
                                          samples_.size(), digits_of(*hash_, samples_));

@@ -43,6 +43,7 @@ class GifReader final : public FrameReader {
   }
 
   bool next() override {
+    if (more_frames_ > 0) return more_frames_-- > 0;
     GraphicsControlBlock control{DISPOSAL_UNSPECIFIED, false, 0, NO_TRANSPARENT_COLOR};
     while (true) {
       GifRecordType type = UNDEFINED_RECORD_TYPE;
@@ -52,6 +53,7 @@ class GifReader final : public FrameReader {
       if (type != IMAGE_DESC_RECORD_TYPE) continue;
       check(DGifGetImageDesc(file_.get()));
       show(control);
+      more_frames_ = frames_of_.of_next({control.DelayTime, 100}) - 1;
       return true;
     }
   }
@@ -82,8 +84,13 @@ class GifReader final : public FrameReader {
     int kind = 0;
     GifByteType* block = nullptr;  // its size comes first
     check(DGifGetExtension(file_.get(), &kind, &block));
+    std::string name;
     while (block != nullptr) {
       if (kind == GRAPHICS_EXT_FUNC_CODE) DGifExtensionToGCB(block[0], block + 1, &control);
+      const std::string text(block + 1, block + 1 + block[0]);
+      if (kind == APPLICATION_EXT_FUNC_CODE && name == kFrameRateExtension)
+        frames_of_.set_rate(text);
+      if (name.empty()) name = text;
       check(DGifGetExtensionNext(file_.get(), &block));
     }
   }
@@ -145,6 +152,8 @@ class GifReader final : public FrameReader {
   std::unique_ptr<VideoInput> input_;
   std::unique_ptr<GifFileType, CloseGif> file_;
   std::optional<Screen<Image>> screen_;
+  ImageFrames frames_of_;
+  std::int64_t more_frames_ = 0;  // that show the last image
   const Image* shown_ = nullptr;
 };
 

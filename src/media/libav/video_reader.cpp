@@ -103,6 +103,15 @@ bool index_leads_out(AVFormatContext& input, AVStream& stream) {
   return false;
 }
 
+/// libavcodec 59 to 61 decode WebP, but no animations. The flag stands behind the chunk's head.
+void refuse_animated_webp(const std::string& path) {
+  constexpr std::size_t kFlags_at = 20;
+  const std::string start = beginning_of(path, kFlags_at + 1).value_or("");
+  if (start.find("WEBPVP8X") != 8 || (start[kFlags_at] & 2) == 0) return;
+  throw MediaError(fmt::format(
+      "video: cannot compare '{}': no animated WebP is read here; compare an *.apng", path));
+}
+
 /// The only video stream besides covers. Of several, just one would be compared.
 int find_video(AVFormatContext& input, const std::string& path) {
   check_av_read(avformat_find_stream_info(&input, nullptr), "read", path);
@@ -281,6 +290,7 @@ std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
   if (std::string_view(input->file->iformat->name) == "gif")
     return read_gif(path, std::move(input));
   take_y4m_matrix(*input->file);
+  refuse_animated_webp(path);
   return std::make_unique<VideoReader>(path, std::move(input));
 }
 

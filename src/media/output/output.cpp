@@ -47,8 +47,9 @@ constexpr std::array kOutputKinds = {
     OutputKind{".mp4", mp4_output, kPictures | kSettings | kSound | kCaptions},
     OutputKind{".mov", by_module<&AvModule::mov_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
-    OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures | kPlays},
+    OutputKind{".gif", gif_output, kPictures | kPlays},
     OutputKind{".apng", apng_output, kPictures | kAlpha | kPlays},
+    OutputKind{".webp", by_module<&AvModule::webp_output>, kPictures | kAlpha | kPlays},
     OutputKind{".png", png_output, kPictures | kAlpha | kNumbers,
                " with a number field such as %06d"},
     OutputKind{".y4m", y4m_output, kPictures},
@@ -192,6 +193,7 @@ std::string no_sound_in(const std::string& name) {
 
 std::optional<int> max_frame_rate_of(const std::string& name) {
   if (has_ending(name, ".gif")) return kMaxFrameRate_gif;
+  if (has_ending(name, ".webp")) return kMaxFrameRate_webp;
   return std::nullopt;
 }
 

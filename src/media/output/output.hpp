@@ -70,7 +70,8 @@ class PacketSource {
 };
 
 /// Turns consecutive frames into packets, one chunk after another. A chunk's bytes depend on its
-/// frames and their numbers alone, not on the chunks before. Used by one thread at a time.
+/// frames, their numbers and, if Output says so, the frame before, not on the chunks before. Used
+/// by one thread at a time.
 class ChunkEncoder {
  public:
   explicit ChunkEncoder(const VideoFormat& format)
@@ -151,7 +152,10 @@ struct Output {
   /// The packets that this output makes of a soundtrack; both must outlive them.
   /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
   std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode_sound = reject_sound;
-  bool has_frames = true;               ///< if false, no frames may be encoded or appended
+  bool has_frames = true;  ///< if false, no frames may be encoded or appended
+  /// Whether an encoder has to take() the frame before a chunk's first one, if there is one, ahead
+  /// of begin().
+  bool needs_frame_before = false;
   std::vector<std::string> notes = {};  ///< as Rendered's
 };
 

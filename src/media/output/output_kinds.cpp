@@ -53,7 +53,7 @@ class Y4mEncoder final : public PacketPerFrameEncoder {
       convert_to_yuv420(frame, chroma_aligned(rect, frame), picture);
     }
   }
-  Bytes encode_picture(std::int64_t number, bool /*is_first*/) override {
+  Bytes encode_picture(std::int64_t number) override {
     const std::string header = (number == 0 ? file_header_ : "") + "FRAME\n";
     Bytes bytes;
     bytes.reserve(header.size() + planes_.size());
@@ -191,7 +191,7 @@ void check_duration_of_frame(const Rational& frame_rate) {
 
 void PacketPerFrameEncoder::encode() {
   const std::int64_t number = next_frame_++;
-  chunk_.push_back({.bytes = encode_picture(number, chunk_.empty()), .pts = number, .dts = number});
+  chunk_.push_back({.bytes = encode_picture(number), .pts = number, .dts = number});
 }
 
 void StreamSink::append(const EncodedChunk& chunk) {
@@ -199,10 +199,7 @@ void StreamSink::append(const EncodedChunk& chunk) {
   for (const Packet& packet : chunk) file_.write(packet.bytes);
 }
 
-void StreamSink::finish() {
-  if (write_trailer_) write_trailer_(file_, counter_.frames());
-  file_.finish();
-}
+void StreamSink::finish() { file_.finish(); }
 
 std::unique_ptr<PacketSource> pcm_packets(SampleSource& samples) {
   return std::make_unique<PcmPackets>(samples);

@@ -20,6 +20,8 @@ namespace piblocks {
 
 /// Delays are whole hundredths of a second, and viewers show less than two as ten.
 inline constexpr int kMaxFrameRate_gif = 50;
+/// Viewers show less than 11 milliseconds as 100.
+inline constexpr int kMaxFrameRate_webp = 90;
 
 /// The arguments of set_up_output(), already known to be in range.
 struct OutputRequest {
@@ -71,8 +73,7 @@ class PacketPerFrameEncoder : public ChunkEncoder {
 
  private:
   /// The bytes of a picture. @param number  of the frame, from 0.
-  /// @param is_first  whether its chunk begins with it: it must not depend on those before it.
-  virtual Bytes encode_picture(std::int64_t number, bool is_first) = 0;
+  virtual Bytes encode_picture(std::int64_t number) = 0;
 
   std::int64_t next_frame_ = 0;
   EncodedChunk chunk_;
@@ -81,12 +82,8 @@ class PacketPerFrameEncoder : public ChunkEncoder {
 /// The bytes of all packets, in one file or on standard output.
 class StreamSink final : public FrameSink {
  public:
-  /// Writes the end of a file of so many frames.
-  using WriteTrailer = std::function<void(OutputFile& file, std::int64_t frames)>;
-
   /// @throws UsageError if the file cannot be opened.
-  explicit StreamSink(const std::string& name, WriteTrailer write_trailer = {})
-      : file_(name), write_trailer_(std::move(write_trailer)) {}
+  explicit StreamSink(const std::string& name) : file_(name) {}
 
   void append(const EncodedChunk& chunk) override;
   void finish() override;
@@ -94,22 +91,17 @@ class StreamSink final : public FrameSink {
  private:
   FrameCounter counter_;
   OutputFile file_;
-  WriteTrailer write_trailer_;
 };
 
-/// An output whose Encoder is made from the format and whatever follows, into a StreamSink.
-template <typename Encoder, typename... More>
+/// An output whose Encoder is made from the format, into a StreamSink.
+template <typename Encoder>
 Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk,
-                     const std::string& signature,
-                     const StreamSink::WriteTrailer& write_trailer = {}, const More&... more) {
+                     const std::string& signature) {
   return {.frames_per_chunk = frames_per_chunk,
           .signature = signature,
-          .make_encoder = [format = request.format,
-                           more...] { return std::make_unique<Encoder>(format, more...); },
-          .open =
-              [name = request.name, write_trailer](std::int64_t /*frames*/) {
-                return std::make_unique<StreamSink>(name, write_trailer);
-              }};
+          .make_encoder = [format = request.format] { return std::make_unique<Encoder>(format); },
+          .open = [name = request.name](
+                      std::int64_t /*frames*/) { return std::make_unique<StreamSink>(name); }};
 }
 
 // All throw UsageError if the kind cannot hold the format or does not take a setting.
@@ -119,6 +111,7 @@ Output mov_output(const OutputRequest& request);
 Output webm_output(const OutputRequest& request);
 Output gif_output(const OutputRequest& request);
 Output apng_output(const OutputRequest& request);
+Output webp_output(const OutputRequest& request);
 Output png_output(const OutputRequest& request);
 Output y4m_output(const OutputRequest& request);
 /// A comment (X…) in the header of our y4m files: y4m has no tag for the matrix. Other programs

@@ -1,15 +1,52 @@
-// How the frames of animated PNG (PNG specification, 13) and GIF (89a, 23) make pictures.
-// In: frames, each with its place and what becomes of it. Out: pictures with straight alpha.
+// How the images of animated PNG (PNG specification, 13) and GIF (89a, 23) make frames.
+// In: images, each with its place and what becomes of it. Out: pictures with straight alpha, and
+// the number of frames that show each.
 #pragma once
+
+#include <piblocks/exact.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace piblocks {
+
+/// How our own files say their frame rate, such as "30000/1001": under this keyword of a tEXt chunk
+/// of PNG, or in an application extension of GIF. In no other way can a standstill, which is one
+/// image, be told from a long frame.
+inline constexpr std::string_view kFrameRateKeyword = "Frames per second";
+inline constexpr std::string_view kFrameRateExtension = "PIBLOCKSfps";
+
+/// Counts the frames that images stand for: one each, unless the file says its frame rate.
+class ImageFrames {
+ public:
+  /// Ignores what is no rate.
+  void set_rate(const std::string& text) {
+    Rational rate;
+    constexpr std::size_t kMaxText_bytes = 32;
+    if (text.size() > kMaxText_bytes || rate.set_str(text, 10) != 0 || rate.get_den() == 0) return;
+    rate.canonicalize();
+    if (rate > 0) rate_ = rate;
+  }
+  /// @param duration_s  of the next image
+  std::int64_t of_next(const Rational& duration_s) {
+    if (!rate_) return 1;
+    end_s_ += duration_s;
+    const Integer end = floor(end_s_ * *rate_ + Rational(1, 2));
+    const Integer count = end - std::exchange(end_, end);
+    return count.fits_slong_p() ? std::max(1L, count.get_si()) : 1;
+  }
+
+ private:
+  std::optional<Rational> rate_;
+  Rational end_s_;
+  Integer end_;  // the number of frames up to there
+};
 
 /// What becomes of a frame before the next one.
 enum class Disposal {

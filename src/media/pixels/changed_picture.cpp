@@ -53,8 +53,15 @@ void ChangedPicture::settle() {
   right_ = bottom_ = 0;
 }
 
+void ChangedPicture::mark_all() {
+  std::ranges::fill(marks_, std::uint8_t{1});
+  left_ = top_ = 0;
+  right_ = width_px_;
+  bottom_ = height_px_;
+}
+
 PixelRect ChangedPicture::changed() const noexcept {
-  if (left_ >= right_) return {0, 0, 1, 1};
+  if (!has_changed()) return {0, 0, 1, 1};
   return {.x_px = left_, .y_px = top_, .width_px = right_ - left_, .height_px = bottom_ - top_};
 }
 

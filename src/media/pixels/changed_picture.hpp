@@ -19,9 +19,11 @@ class ChangedPicture {
   void take(const ImageView& frame, std::span<const PixelRect> rects);
   /// Forgets what has changed.
   void settle();
+  /// Takes everything for changed.
+  void mark_all();
 
-  PixelRect whole() const noexcept { return {0, 0, width_px_, height_px_}; }
-  /// Around all that has changed since settle(). One pixel if nothing has: no frame is empty.
+  bool has_changed() const noexcept { return left_ < right_; }
+  /// Around all that has changed since settle(). One pixel if nothing has: no image is empty.
   PixelRect changed() const noexcept;
   /// Pixels as ImageView has them.
   const std::uint32_t* row(int y) const noexcept { return words_.data() + offset(y); }

@@ -1,8 +1,9 @@
 // Animated PNG: https://wiki.mozilla.org/APNG_Specification, since 2025 part of PNG itself.
 #include <fmt/format.h>
 
+#include "media/output/animated_output.hpp"
 #include "media/output/output_kinds.hpp"
-#include "media/pixels/changed_picture.hpp"
+#include "media/pixels/animation.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
 
@@ -15,94 +16,117 @@ constexpr int kMaxTerm = 65535;
 constexpr std::uint64_t kAnimationControl = 8 + 25;
 
 /// @param plays  0 for ever
-void append_animation_control(Bytes& bytes, std::int64_t frames, int plays) {
+void append_animation_control(Bytes& bytes, std::int64_t images, int plays) {
   const std::size_t chunk = begin_png_chunk(bytes, "acTL");
-  append_big_endian(bytes, std::uint64_t(frames), 4);
+  append_big_endian(bytes, std::uint64_t(images), 4);
   append_big_endian(bytes, std::uint64_t(plays), 4);
   end_png_chunk(bytes, chunk);
 }
 
-class ApngEncoder final : public PacketPerFrameEncoder {
+constexpr std::size_t kApngPlace_bytes = 16;
+
+/// An image is its size and place, as fcTL has them, and its compressed rows.
+class ApngEncoder final : public AnimationEncoder {
  public:
-  explicit ApngEncoder(const VideoFormat& format)
-      : PacketPerFrameEncoder(format),
-        format_(format),
-        picture_(format.width_px, format.height_px) {}
+  ApngEncoder(const VideoFormat& format, std::int64_t longest)
+      : AnimationEncoder(format, longest), has_alpha_(format.has_alpha) {}
 
  private:
-  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
-    picture_.take(frame, rects);
-  }
-  Bytes encode_picture(std::int64_t number, bool is_first) override {
-    const PixelRect rect = is_first ? picture_.whole() : picture_.changed();
-    picture_.settle();
-    filter(rect);
+  Bytes encode_image(const ChangedPicture& picture) override {
+    const PixelRect rect = picture.changed();
     Bytes bytes;
-    if (number == 0) {
-      append_png_header(bytes, format_.width_px, format_.height_px,
-                        format_.has_alpha ? PngColors::rgba : PngColors::rgb);
-      append_animation_control(bytes, 0, 0);  // write_trailer() writes the numbers
-      append_png_srgb(bytes);
-    }
-    append_frame_control(bytes, number, rect);
-    const std::size_t data = begin_png_chunk(bytes, number == 0 ? "IDAT" : "fdAT");
-    if (number > 0) append_big_endian(bytes, std::uint64_t(2 * number), 4);
-    append(bytes, deflater_.compress(rows_));
-    end_png_chunk(bytes, data);
-    return bytes;
-  }
-  /// fcTL chunks and the fdAT chunks between them are numbered together.
-  void append_frame_control(Bytes& bytes, std::int64_t number, const PixelRect& rect) const {
-    const std::size_t control = begin_png_chunk(bytes, "fcTL");
-    append_big_endian(bytes, number == 0 ? 0 : std::uint64_t(2 * number - 1), 4);
     for (const int value : {rect.width_px, rect.height_px, rect.x_px, rect.y_px}) {
       append_big_endian(bytes, std::uint64_t(value), 4);
     }
-    append_big_endian(bytes, format_.frame_rate.get_den().get_ui(), 2);
-    append_big_endian(bytes, format_.frame_rate.get_num().get_ui(), 2);
-    bytes.push_back(0);  // stays until the next frame is drawn over it,
-    bytes.push_back(0);  // which replaces it
-    end_png_chunk(bytes, control);
-  }
-  void filter(const PixelRect& rect) {
     rows_.clear();
-    append_up_filtered(rows_, rect.height_px,
-                       std::size_t(rect.width_px) * packed_bytes(format_.has_alpha),
+    append_up_filtered(rows_, rect.height_px, std::size_t(rect.width_px) * packed_bytes(has_alpha_),
                        [&](int row, std::uint8_t* to) {
-                         pack_row(picture_.view(format_.has_alpha), rect, rect.y_px + row, to);
+                         pack_row(picture.view(has_alpha_), rect, rect.y_px + row, to);
                        });
+    append(bytes, deflater_.compress(rows_));
+    return bytes;
   }
 
-  VideoFormat format_;
-  ChangedPicture picture_;
+  bool has_alpha_;
   Deflater deflater_{Deflater::Form::whole};
   Bytes rows_;  // filtered
 };
 
-void write_trailer(OutputFile& file, std::int64_t frames, int plays) {
-  Bytes end;
-  append_png_chunk(end, "IEND");
-  file.write(end);
-  Bytes control;
-  append_animation_control(control, frames, plays);
-  file.write_at(kAnimationControl, control);
-}
+class ApngSink final : public AnimationSink {
+ public:
+  explicit ApngSink(const OutputRequest& request)
+      : AnimationSink(request.name, kApngPlace_bytes),
+        rate_(request.format.frame_rate),
+        plays_(request.settings.plays.value_or(0)) {
+    const VideoFormat& format = request.format;
+    Bytes bytes;
+    append_png_header(bytes, format.width_px, format.height_px,
+                      format.has_alpha ? PngColors::rgba : PngColors::rgb);
+    append_animation_control(bytes, 0, 0);  // write_end() writes the numbers
+    append_png_srgb(bytes);
+    const std::size_t rate = begin_png_chunk(bytes, "tEXt");
+    piblocks::append(bytes, kFrameRateKeyword);
+    bytes.push_back(0);
+    piblocks::append(bytes, rate_.get_str());
+    end_png_chunk(bytes, rate);
+    file().write(bytes);
+  }
+
+ private:
+  void write_image(Bytes image, std::int64_t first, std::int64_t end) override {
+    const ByteSpan place = std::span(image).first(kApngPlace_bytes);
+    Bytes bytes;
+    // fcTL chunks and the fdAT chunks between them are numbered together.
+    const std::size_t control = begin_png_chunk(bytes, "fcTL");
+    append_big_endian(bytes, next_sequence_++, 4);
+    piblocks::append(bytes, place);
+    append_big_endian(bytes, std::uint64_t(end - first) * rate_.get_den().get_ui(), 2);
+    append_big_endian(bytes, rate_.get_num().get_ui(), 2);
+    bytes.push_back(0);  // stays until the next frame is drawn over it,
+    bytes.push_back(0);  // which replaces it
+    end_png_chunk(bytes, control);
+    const std::size_t data = begin_png_chunk(bytes, first == 0 ? "IDAT" : "fdAT");
+    if (first > 0) append_big_endian(bytes, next_sequence_++, 4);
+    piblocks::append(bytes, ByteSpan(image).subspan(kApngPlace_bytes));
+    end_png_chunk(bytes, data);
+    file().write(bytes);
+    ++images_;
+  }
+  void write_end() override {
+    Bytes end;
+    append_png_chunk(end, "IEND");
+    file().write(end);
+    Bytes control;
+    append_animation_control(control, images_, plays_);
+    file().write_at(kAnimationControl, control);
+  }
+
+  Rational rate_;
+  int plays_;
+  std::uint64_t next_sequence_ = 0;
+  std::int64_t images_ = 0;
+};
 
 }  // namespace
 
 Output apng_output(const OutputRequest& request) {
-  constexpr std::int64_t kFramesPerChunk = 64;  // the first of them whole
-  const Rational& rate = request.format.frame_rate;
+  constexpr std::int64_t kFramesPerChunk = 64;
+  const VideoFormat& format = request.format;
+  const Rational& rate = format.frame_rate;
   if (rate.get_num() > kMaxTerm || rate.get_den() > kMaxTerm) {
     throw UsageError(
         fmt::format("apng: frame rate {} cannot be stored: use a fraction of numbers up to {}, "
                     "such as 60 or 30000/1001",
                     rate.get_str(), kMaxTerm));
   }
-  const int plays = request.settings.plays.value_or(0);
-  return stream_output<ApngEncoder>(
-      request, kFramesPerChunk, fmt::format("apng by zlib {}, plays {}", zlibVersion(), plays),
-      [plays](OutputFile& file, std::int64_t frames) { write_trailer(file, frames, plays); });
+  const std::int64_t longest = kMaxTerm / rate.get_den().get_si();
+  return {
+      .frames_per_chunk = kFramesPerChunk,
+      .signature = fmt::format("apng by zlib {}, plays {}", zlibVersion(),
+                               request.settings.plays.value_or(0)),
+      .make_encoder = [format, longest] { return std::make_unique<ApngEncoder>(format, longest); },
+      .open = [request](std::int64_t /*frames*/) { return std::make_unique<ApngSink>(request); },
+      .needs_frame_before = true};
 }
 
 }  // namespace piblocks

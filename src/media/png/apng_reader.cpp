@@ -100,8 +100,10 @@ class ApngReader final : public FrameReader {
   }
 
   bool next() override {
+    if (more_frames_ > 0) return more_frames_-- > 0;
     if (!control_) return false;
     const FrameControl control = *control_;
+    more_frames_ = frames_of_.of_next(duration_s_) - 1;
     show(control, read_frame());
     ++frames_;
     const bool is_last = !control_;
@@ -125,6 +127,10 @@ class ApngReader final : public FrameReader {
       announced_ = big_endian_at(chunk.data, 0);
     } else if (chunk.type == "PLTE" || chunk.type == "tRNS") {
       append_png_chunk(shared_, chunk.type, chunk.data);
+    } else if (chunk.type == "tEXt") {
+      const std::string text(chunk.data.begin(), chunk.data.end());
+      const std::string keyword = std::string(kFrameRateKeyword) + '\0';
+      if (text.starts_with(keyword)) frames_of_.set_rate(text.substr(keyword.size()));
     } else if (chunk.type == "eXIf") {
       presentation_ = presentation_by_exif(chunk.data);
     } else if (chunk.type == "fcTL") {
@@ -194,6 +200,10 @@ class ApngReader final : public FrameReader {
                       (!is_default || (control.width == width_ && control.height == height_));
     if (!fits || data[24] > 2 || data[25] > 1) fail(path_, "fcTL: invalid values");
     control_ = control;
+    const auto denominator = from_big_endian(data.subspan(22, 2));
+    duration_s_ =
+        Rational(from_big_endian(data.subspan(20, 2)), denominator == 0 ? 100 : denominator);
+    duration_s_.canonicalize();
     // Nothing was there before the first frame.
     if (is_first && control.disposal == Disposal::previous) {
       control_->disposal = Disposal::background;
@@ -226,9 +236,12 @@ class ApngReader final : public FrameReader {
   std::uint32_t height_ = 0;
   std::uint32_t announced_ = 0;
   std::uint32_t frames_ = 0;  // that have been read
+  ImageFrames frames_of_;
+  std::int64_t more_frames_ = 0;  // that show the last one
   std::uint32_t next_sequence_ = 0;
   bool is_default_over_ = false;         // IDAT can be no frame any more
   std::optional<FrameControl> control_;  // of the next frame
+  Rational duration_s_;                  // its own
   // Only one of them is used: all frames have the depth of the file.
   std::optional<Screen<Image>> flat_;
   std::optional<Screen<DeepImage>> deep_;

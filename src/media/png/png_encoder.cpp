@@ -52,7 +52,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
     for (const PixelRect& rect : rects) filter_rect(frame, rect);
   }
-  Bytes encode_picture(std::int64_t /*number*/, bool /*is_first*/) override {
+  Bytes encode_picture(std::int64_t /*number*/) override {
     std::size_t size = 128;
     for (std::size_t i = 0; i < strips_.size(); ++i) {
       if (strips_[i].stale) compress_strip(i);

@@ -21,6 +21,7 @@
 
 #include "core/descriptor.hpp"
 #include "core/input_file.hpp"
+#include "media/pixels/animation.hpp"
 #include "media/png/png_chunk.hpp"
 
 namespace piblocks {
@@ -91,8 +92,16 @@ class PngFile {
     check_size();
   }
 
+  bool has_frame_rate() const {
+    png_textp texts = nullptr;
+    int count = 0;
+    png_get_text(structs_.png, structs_.info, &texts, &count);
+    return std::ranges::any_of(std::span(texts, std::size_t(count)),
+                               [](const png_text& text) { return text.key == kFrameRateKeyword; });
+  }
   bool is_deep() const { return png_get_bit_depth(structs_.png, structs_.info) == 16; }
-  /// A file with one frame counts as animated if other programs show another picture.
+  /// A file with one image counts as animated if other programs show another picture, or if it is
+  /// one of ours, in which the image may stand for several frames.
   bool is_animated() const {
     png_unknown_chunkp chunks = nullptr;
     const int count = png_get_unknown_chunks(structs_.png, structs_.info, &chunks);
@@ -103,7 +112,7 @@ class PngFile {
       if (name == "acTL" && chunk.size >= 4) frames = png_get_uint_32(chunk.data);
       begins_with_picture = begins_with_picture || name == "fcTL";
     }
-    return frames > (begins_with_picture ? 1 : 0);
+    return frames > (begins_with_picture && !has_frame_rate() ? 1 : 0);
   }
   /// FrameReader::presentation()
   std::string presentation() const {

@@ -25,6 +25,7 @@ _TYPES = {
     ".webm": "video/webm",
     ".gif": "image/gif",
     ".apng": "image/apng",
+    ".webp": "image/webp",
     ".wav": "audio/wav",
 }
 

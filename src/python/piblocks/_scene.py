@@ -362,13 +362,13 @@ class Scene:
         The bytes are those of ``piblocks render`` with the same options. Other threads run
         meanwhile, and Ctrl-C stops it.
 
-        :param file: its ending selects the format: .mp4, .mov, .webm, .gif, .apng, .y4m, .wav,
-            .html (a page to step through), .framehash, or pictures as "frames/%06d.png".
+        :param file: its ending selects the format: .mp4, .mov, .webm, .gif, .apng, .webp, .y4m,
+            .wav, .html (a page to step through), .framehash, or pictures as "frames/%06d.png".
         :param progress: True for a line on standard error; or called with the frames done and the
             frames in all. An exception in it stops the rendering, and is raised.
         :param jobs: threads (default: one a processor); changes no byte.
         :param start_number: of the first numbered picture (default: 1).
-        :param plays: how often a GIF or APNG plays (default: for ever).
+        :param plays: how often a GIF, APNG or WebP plays (default: for ever).
         :param captions: "inside" gives an MP4 a track of captions.
         :param for_: size, rate and background that suit "powerpoint", "web", ...
         :param part: (2, 3) renders the second of three shares, for ``join``.

@@ -1,4 +1,4 @@
-#include "media/libav/color_table.hpp"
+#include "media/gif/color_table.hpp"
 
 #include <algorithm>
 #include <utility>
