@@ -30,6 +30,14 @@ struct Shard {
   friend bool operator==(const Shard&, const Shard&) = default;
 };
 
+/// Consecutive frames of a film, by their numbers. The first frame of a film is number 0.
+struct FrameRange {
+  std::int64_t first = 0;
+  std::int64_t last = 0;  ///< included
+
+  std::int64_t count() const { return last - first + 1; }
+};
+
 /// A folder for a video under the name of the job's output, and for what a lecture needs beside it:
 /// poster, captions, a text for those who cannot see it, ways to show it.
 struct Bundle {
@@ -47,6 +55,9 @@ struct RenderJob {
   std::string output;
   EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
+  /// Renders these frames only: a film of its own or, of numbered pictures, those that a rendering
+  /// of the whole film would number alike; its other pictures stay. No part, page or bundle has it.
+  std::optional<FrameRange> frames = {};
   /// Renders this share only, to the file shard_name().
   std::optional<Shard> shard = {};
   bool profile = false;  ///< whether to measure what each step costs
@@ -91,7 +102,7 @@ struct Progress {
 
 using OnProgress = std::function<void(const Progress&)>;
 
-/// Renders every frame of the film, or of a shard of it.
+/// Renders every frame of the film, or of a range or shard of it.
 /// @param on_progress  called by the calling thread: at the start, now and then, at the end.
 /// @param stop         asks to give up: Interrupted is thrown soon after.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted

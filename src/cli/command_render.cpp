@@ -69,6 +69,10 @@ void add_run_options(Command& command) {
   command.add_value("--jobs", "N",
                     "Threads (default: one for each processor that the process may\nuse); changes "
                     "no byte of the output");
+  command.add_value("--frames", "A-B",
+                    "Render frames A to B alone; the first of the film is 0. Pictures\n"
+                    "of a sequence get the numbers that they have in the whole one,\n"
+                    "and its others stay");
   command.add_value("--part", "I/N",
                     "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
   command.add_value("--bundle", "DIR",

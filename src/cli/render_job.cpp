@@ -33,6 +33,16 @@ Shard parse_part(const std::string& text) {
       fmt::format("must be I/N, such as 2/3: I from 1 to N, and N at most {}", kMaxShards));
 }
 
+/// "120-180"
+FrameRange parse_frames(const std::string& text) {
+  const std::size_t dash = std::min(text.find('-'), text.size());
+  const std::optional<Integer> first = whole_number(text.substr(0, dash));
+  const std::optional<Integer> last = whole_number(text.substr(std::min(dash + 1, text.size())));
+  const bool is_range = first && last && *first <= *last && *last < to_integer(kMaxFrames);
+  if (is_range) return {first->get_si(), last->get_si()};
+  throw UsageError("must be A-B, such as 120-180: frames of the film, the first of which is 0");
+}
+
 double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
 
 /// Under half the size, and many times the time (tests/benchmark/encoders.md).
@@ -101,6 +111,7 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
       .output = output,
       .encoder = std::move(settings),
       .jobs = options.value("--jobs", parse_jobs).value_or(std::min(processor_count(), kMaxJobs)),
+      .frames = options.value("--frames", parse_frames),
       .shard = options.value("--part", parse_part),
       .profile = options.is_given("--profile"),
       .bundle = bundle_of(options),

@@ -64,6 +64,11 @@ struct FadeRamps {
   std::optional<Ramp> rise;  ///< of the segment itself
 };
 
+/// So many samples as there is room for, of so many pairs.
+std::size_t room(std::span<const float> samples, std::int64_t pairs) {
+  return 2 * std::min(samples.size() / 2, static_cast<std::size_t>(pairs));
+}
+
 /// From one frame before the fade, where only the segment before is seen, to the first one after
 /// it, where only the new one is. Half-way both are silent.
 FadeRamps ramps_of(const PlacedSegment& segment, const Rational& frame_rate) {
@@ -323,16 +328,21 @@ std::int64_t frame_at(const Film& film, const Instant& instant) {
                                to_text(Rational(to_integer(film.frame_count())) / rate)));
 }
 
-FilmSound::FilmSound(const Film& film, std::stop_token stop,
+FilmSound::FilmSound(const Film& film, const FrameRange& frames, std::stop_token stop,
                      std::function<void(std::int64_t)> on_samples)
     : soundtrack_(voices_of(film),
                   Rational(to_integer(film.frame_count())) / film.view().frame_rate),
       stop_(std::move(stop)),
-      on_samples_(std::move(on_samples)) {}
+      on_samples_(std::move(on_samples)),
+      before_(samples_before(frames.first, film.view().frame_rate)),
+      size_(sound_format(frames, film.view().frame_rate).size) {}
 
 std::size_t FilmSound::read(std::span<float> samples) {
-  check_stop(stop_);
-  const std::size_t count = soundtrack_.read(samples);
+  // The level of each sample depends on those before it.
+  for (check_stop(stop_); before_ > 0; check_stop(stop_)) {
+    before_ -= std::int64_t(soundtrack_.read(samples.first(room(samples, before_))));
+  }
+  const std::size_t count = soundtrack_.read(samples.first(room(samples, size_ - count_)));
   count_ += static_cast<std::int64_t>(count);
   on_samples_(count_);
   return count;

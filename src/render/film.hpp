@@ -4,6 +4,7 @@
 
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
 #include <piblocks/two_blocks.hpp>
@@ -139,6 +140,7 @@ class Film {
 
   const View& view() const noexcept { return view_; }
   std::int64_t frame_count() const noexcept { return frame_count_; }
+  FrameRange frames() const noexcept { return {0, frame_count_ - 1}; }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
   /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
@@ -163,19 +165,28 @@ class Film {
 /// @throws UsageError if the film has no such frame.
 std::int64_t frame_at(const Film& film, const Instant& instant);
 
-/// Of a soundtrack that is as long as so many frames, to the nearest sample.
-inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_rate) {
-  const Rational size = Rational(to_integer(frame_count)) / frame_rate * Soundtrack::kRate_hz;
-  return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
+/// The pairs of samples before a frame, to the nearest one.
+inline std::int64_t samples_before(std::int64_t frame, const Rational& frame_rate) {
+  const Rational samples = Rational(to_integer(frame)) / frame_rate * Soundtrack::kRate_hz;
+  return floor(samples + Rational(1, 2)).get_si();
+}
+
+/// Of the soundtrack of these frames.
+inline SoundFormat sound_format(const FrameRange& frames, const Rational& frame_rate) {
+  return {.rate_hz = Soundtrack::kRate_hz,
+          .size = samples_before(frames.last + 1, frame_rate) -
+                  samples_before(frames.first, frame_rate)};
 }
 
 /// A film's soundtrack, until it is told to stop: each run of each segment at its time, and as loud
-/// as its segment is seen. Cards are silent.
+/// as its segment is seen. Cards are silent. Of a range of frames, the samples that the whole film
+/// has there.
 class FilmSound final : public SampleSource {
  public:
   /// @param film        must outlive it.
   /// @param on_samples  is told how many pairs there are so far.
-  FilmSound(const Film& film, std::stop_token stop, std::function<void(std::int64_t)> on_samples);
+  FilmSound(const Film& film, const FrameRange& frames, std::stop_token stop,
+            std::function<void(std::int64_t)> on_samples);
 
   std::size_t read(std::span<float> samples) override;
 
@@ -183,6 +194,8 @@ class FilmSound final : public SampleSource {
   Soundtrack soundtrack_;
   std::stop_token stop_;
   std::function<void(std::int64_t)> on_samples_;
+  std::int64_t before_;  ///< pairs to leave out
+  std::int64_t size_;
   std::int64_t count_ = 0;
 };
 

@@ -20,23 +20,42 @@
 namespace piblocks {
 namespace {
 
+FrameRange frames_of(const RenderJob& job, const Film& film) {
+  const FrameRange all = film.frames();
+  const FrameRange frames = job.frames.value_or(all);
+  if (0 <= frames.first && frames.first <= frames.last && frames.last <= all.last) return frames;
+  throw UsageError(fmt::format("frames: there are no frames {}-{}; those of the film are {}-{}",
+                               frames.first, frames.last, all.first, all.last));
+}
+
+/// Those of the job. The first picture of a range has the number that it has in the whole sequence.
+EncoderSettings settings_of(const RenderJob& job) {
+  EncoderSettings settings = job.encoder;
+  if (job.frames && has_numbers(job.output)) {
+    settings.start_number = settings.start_number.value_or(1) + int(job.frames->first);
+  }
+  return settings;
+}
+
 /// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
   Plan(const RenderJob& job, const Film& of)
       : film(of),
-        sound(soundtrack_of(job, film)),
+        frames(frames_of(job, film)),
+        sound(soundtrack_of(job)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.view().background == Background::transparent},
-                             job.encoder, sound, job.overwrite)),
-        chunks{output.has_frames ? film.frame_count() : 0, output.frames_per_chunk} {}
+                             settings_of(job), sound, job.overwrite)),
+        chunks{output.has_frames ? frames.count() : 0, output.frames_per_chunk} {}
 
-  static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
+  std::optional<SoundFormat> soundtrack_of(const RenderJob& job) const {
     if (!is_sound_alone(job.output) && !sound_of(job.script).on) return std::nullopt;
-    return sound_format(film.frame_count(), film.view().frame_rate);
+    return sound_format(frames, film.view().frame_rate);
   }
 
   const Film& film;
+  FrameRange frames;  ///< of the film; frame 0 of the output is the first of these
   std::optional<SoundFormat> sound;
   Output output;
   Chunks chunks;
@@ -81,7 +100,7 @@ class Worker {
  private:
   void add_frame(std::int64_t frame, StepClock& clock) {
     clock.enter(Step::compose);
-    DrawList list = plan_.film.frame(frame);
+    DrawList list = plan_.film.frame(plan_.frames.first + frame);
     clock.enter(Step::paint);
     const std::span<const PixelRect> changed = canvas_.update(std::move(list));
     clock.enter(Step::convert);
@@ -159,10 +178,10 @@ SoundWork sound_of(const Plan& plan, const OnProgress& on_progress, StepClock& c
                    const std::stop_token& stop) {
   const auto report = [&](std::int64_t samples) {
     if (plan.output.has_frames || samples == plan.sound->size) return;
-    const std::int64_t frames = plan.film.frame_count();
+    const std::int64_t frames = plan.frames.count();
     on_progress({samples * frames / plan.sound->size, frames});
   };
-  SoundWork work{std::make_unique<FilmSound>(plan.film, stop, report), nullptr};
+  SoundWork work{std::make_unique<FilmSound>(plan.film, plan.frames, stop, report), nullptr};
   work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*work.samples), clock);
   return work;
 }
@@ -210,7 +229,7 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
 
   Rendered rendered{plan.output.has_frames
                         ? plan.chunks.begin(range.end) - plan.chunks.begin(range.begin)
-                        : plan.film.frame_count(),
+                        : plan.frames.count(),
                     {}};
   std::int64_t reported = -1;
   const auto report = [&] {
@@ -269,6 +288,9 @@ std::vector<std::string> fit_to_output(RenderJob& job) {
 
 Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
+  if (job.frames && (job.shard || job.bundle || is_page(job.output))) {
+    throw UsageError("frames: parts, pages and bundles are of the whole film; leave frames out");
+  }
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);
   return render_film(job, film_of(job, stop), on_progress, stop);

@@ -238,7 +238,7 @@ JobDescription read_description(const ShardFile& part) {
   job.signature = value_of(part, "output");
   job.frame_count = number(part, "frames", kMaxFrames);
   if (value_of(part, "sound.on") == "true") {
-    job.sound = sound_format(job.frame_count, job.format.frame_rate);
+    job.sound = sound_format({0, job.frame_count - 1}, job.format.frame_rate);
   }
   return job;
 }

@@ -24,6 +24,8 @@ FILM = [*SMALL, "--fps", "10", "--to", "4"]
         ("a.mp4", ["--encoder", "libx264", "--crf", "30", "--preset", "veryfast"]),
         ("a.gif", ["--plays", "3"]),
         ("%03d.png", ["--start-number", "700"]),
+        ("%03d.png", ["--frames", "3-5"]),
+        ("a.mp4", ["--sound", "--frames", "3-35"]),
         ("a.mp4", ["--part", "2/2", "--jobs", "1"]),
         ("a.mov", []),
         ("a.webm", []),

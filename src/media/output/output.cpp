@@ -174,6 +174,11 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 
 bool is_sound_alone(const std::string& name) { return has_ending(name, ".wav"); }
 
+bool has_numbers(const std::string& name) {
+  const OutputKind* const kind = find_kind(name);
+  return kind != nullptr && kind->has(kNumbers);
+}
+
 bool takes_sound(const std::string& name) {
   const OutputKind* const kind = find_kind(name);
   return kind == nullptr || kind->has(kSound);

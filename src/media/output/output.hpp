@@ -161,6 +161,9 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 /// Whether an output of this name is sound without pictures: `*.wav`.
 bool is_sound_alone(const std::string& name);
 
+/// Whether an output of this name is numbered pictures.
+bool has_numbers(const std::string& name);
+
 /// Whether an output of this name can have sound.
 bool takes_sound(const std::string& name);
 /// The message for a name that cannot.

@@ -178,6 +178,10 @@ class PngSequence final : public FrameSink {
   }
   std::string aftermath() const override {
     std::vector<std::string> done;
+    if (leaves_later_ && counter_.frames() > 0) {
+      done.push_back(
+          fmt::format("{} to {}", pattern_.name(first_), pattern_.name(next_number() - 1)));
+    }
     if (foreign_ > 0) done.push_back("replaced " + counted(foreign_, "other file"));
     if (removed_ > 0) {
       done.push_back("removed " + counted(removed_, "picture") + " of an earlier run");

@@ -349,6 +349,7 @@ class Scene:
         start_number: int | None = None,
         plays: int | None = None,
         smallest: bool = False,
+        frames: Any = None,
         part: Any = None,
         bundle: Path | None = None,
         poster: Any = None,
@@ -369,6 +370,8 @@ class Scene:
         :param start_number: of the first numbered picture (default: 1).
         :param plays: how often a GIF or APNG plays (default: for ever).
         :param for_: size, rate and background that suit "powerpoint", "web", ...
+        :param frames: (120, 180) renders these frames alone, the first being 0. Numbered pictures
+            get the numbers that they have in the whole film, and the others stay.
         :param part: (2, 3) renders the second of three shares, for ``join``.
         :param bundle: a folder for the video, a poster, captions, and snippets for slides.
         :param overwrite: lets pictures of a sequence, and files of a bundle or part, replace files
@@ -388,7 +391,7 @@ class Scene:
             "--profile": profile,
             "--overwrite": overwrite,
         }
-        return _render.render(self._script, file, progress, bundle, poster, part, given)
+        return _render.render(self._script, file, progress, bundle, poster, frames, part, given)
 
     def animate(self) -> Any:
         """A slider over the exact frames in a notebook: a widget of ipywidgets 7 or later.
