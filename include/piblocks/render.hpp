@@ -68,6 +68,9 @@ struct RenderJob {
   /// Whether files whose names piblocks makes (pictures of a sequence, files of a bundle, a shard)
   /// may replace files that no earlier run has made.
   bool overwrite = false;
+  /// Of numbered pictures: keeps those that an unfinished run of the same job has left, and leaves
+  /// its own for the next one if it does not finish. No other output can be resumed.
+  bool resume = false;
 };
 
 /// What the work on a frame consists of, in this order; sound is both made and encoded in one.
@@ -90,7 +93,7 @@ struct Rendered {
   Profile profile;  ///< zero unless asked for
   /// What a user should know of the output, one line each: players that may not show it.
   std::vector<std::string> notes = {};
-  /// What became of the files of an earlier output, such as "removed 12 pictures of an earlier
+  /// What became of the files of an earlier run, such as "removed 12 pictures of an earlier
   /// run"; usually empty.
   std::string aftermath = {};
 };

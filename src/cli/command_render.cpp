@@ -84,6 +84,9 @@ void add_run_options(Command& command) {
   command.add_value("--max-flashes", "N",
                     "Render nothing if the film would flash more than N times\n"
                     "within a second; 3 are held to be harmless (WCAG 2.3.1)");
+  command.add_flag("--resume",
+                   "Keep the pictures of a sequence that an interrupted run of the\n"
+                   "same command has left; if interrupted, leave what there is");
   add_overwrite(command);
   command.add_flag("--profile", "Print what each stage cost, on standard error");
   command.add_flag("--quiet", "Print nothing but errors, and what --profile asks for");

@@ -116,7 +116,8 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
       .profile = options.is_given("--profile"),
       .bundle = bundle_of(options),
       .max_flashes = options.value("--max-flashes", parse_flashes),
-      .overwrite = options.is_given("--overwrite")};
+      .overwrite = options.is_given("--overwrite"),
+      .resume = options.is_given("--resume")};
 }
 
 std::string name_of(const RenderJob& job) {

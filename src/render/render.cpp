@@ -84,11 +84,13 @@ class Worker {
         canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
         encoder_(plan.output.make_encoder()) {}
 
-  EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
+  /// @param kept  so many frames of the output are there already.
+  EncodedWork work(std::int64_t chunk, std::int64_t kept, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
-    encoder_->begin(plan_.chunks.begin(chunk));
+    const std::int64_t first = std::max(plan_.chunks.begin(chunk), kept);
+    encoder_->begin(first);
     canvas_.listen(stop);
-    for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
+    for (auto frame = first; frame < plan_.chunks.end(chunk); ++frame) {
       check_stop(stop);
       add_frame(frame, clock);
       frames_done_.fetch_add(1, std::memory_order_relaxed);
@@ -128,10 +130,14 @@ ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
 }
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
-  if (!job.shard) return plan.output.open(plan.chunks.frame_count);
+  if (!job.shard && !has_numbers(job.output)) return plan.output.open({plan.chunks.frame_count});
   ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
-  header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
-  return open_shard(shard_name(job.output, *job.shard), header, job.overwrite);
+  if (job.shard) {
+    header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
+    return open_shard(shard_name(job.output, *job.shard), header, job.overwrite);
+  }
+  if (job.frames) header.emplace_back("first-frame", std::to_string(job.frames->first));
+  return plan.output.open({plan.chunks.frame_count, {text_of(header), job.resume}});
 }
 
 void check_shard(const RenderJob& job) {
@@ -219,11 +225,13 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
   }
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
-  std::atomic<std::int64_t> frames_done = 0;
+  const std::int64_t kept = sink->kept_frames();
+  const std::int64_t first = std::max(range.begin, plan.chunks.ended_by(kept));
+  std::atomic<std::int64_t> frames_done = kept;
   const auto make_worker = [&] {
     const auto worker = std::make_shared<Worker>(plan, job.profile, frames_done);
-    return [worker, &range](std::int64_t task, const std::stop_token& halt) {
-      return worker->work(range.begin + task, halt);
+    return [=](std::int64_t task, const std::stop_token& halt) {
+      return worker->work(first + task, kept, halt);
     };
   };
 
@@ -243,7 +251,7 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
     sound = sound_of(plan, on_progress, clock, stop);
     sink->take_sound(*sound.packets);
   }
-  OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker, size_of);
+  OrderedPool<EncodedWork> pool(range.end - first, job.jobs, make_worker, size_of);
   while (const auto work = pool.take(stop, report)) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
@@ -290,6 +298,12 @@ Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   if (job.frames && (job.shard || job.bundle || is_page(job.output))) {
     throw UsageError("frames: parts, pages and bundles are of the whole film; leave frames out");
+  }
+  if (job.resume && (job.shard || !has_numbers(job.output))) {
+    throw UsageError(
+        fmt::format("resume: only pictures of a sequence are kept; render '{}' in parts, --part "
+                    "I/N, each of which is kept once it is done",
+                    job.output));
   }
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);

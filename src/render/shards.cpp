@@ -282,7 +282,7 @@ Rendered join(const std::vector<std::string>& parts, const std::string& output,
   const Output joined = set_up_output(output, job.format, job.encoder, job.sound, overwrite);
   check_output(in_order, output, joined, job);
 
-  const auto sink = joined.open(job.frame_count);
+  const auto sink = joined.open({job.frame_count});
   std::optional<ShardSound> sound;
   if (job.sound) sink->take_sound(sound.emplace(in_order.front().path));
   std::int64_t frames = 0;

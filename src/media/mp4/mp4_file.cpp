@@ -62,13 +62,14 @@ Output mp4_output(const OutputRequest& request) {
   if (request.sound || !is_builtin(request.settings)) return av_module().mp4_output(request);
   check_duration_of_frame(request.format.frame_rate);
   const auto stream = std::make_shared<const H264Stream>(request.format, request.settings);
-  return {
-      .frames_per_chunk = stream->frames_per_chunk,
-      .signature = "mp4 by " + stream->signature(),
-      .make_encoder = [stream] { return h264_chunk_encoder(*stream, load_successor); },
-      .open = [name = request.name, stream](
-                  std::int64_t frames) { return std::make_unique<Mp4File>(name, *stream, frames); },
-      .notes = h264_notes(request.format)};
+  return {.frames_per_chunk = stream->frames_per_chunk,
+          .signature = "mp4 by " + stream->signature(),
+          .make_encoder = [stream] { return h264_chunk_encoder(*stream, load_successor); },
+          .open =
+              [name = request.name, stream](const Opening& opening) {
+                return std::make_unique<Mp4File>(name, *stream, opening.frames);
+              },
+          .notes = h264_notes(request.format)};
 }
 
 }  // namespace piblocks

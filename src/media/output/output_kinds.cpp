@@ -213,7 +213,7 @@ Output null_output(const OutputRequest& request) {
       .frames_per_chunk = 64,
       .signature = "null",
       .make_encoder = [format = request.format] { return std::make_unique<NullEncoder>(format); },
-      .open = [](std::int64_t /*frames*/) { return std::make_unique<NullSink>(); }};
+      .open = [](const Opening& /*opening*/) { return std::make_unique<NullSink>(); }};
 }
 
 Output y4m_output(const OutputRequest& request) {
@@ -235,14 +235,15 @@ Output wav_output(const OutputRequest& request) {
         "output: '{}' cannot be that long: WAV ends at 4 GiB, which is {} s; write *.mp4 --sound",
         request.name, (kMaxFile_bytes - kHeader_bytes) / kPair_bytes / sound.rate_hz));
   }
-  return {.signature = "wav",
-          .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
-            throw MediaError("output: cannot encode frames as sound");
-          },
-          .open = [name = request.name, sound](
-                      std::int64_t /*frames*/) { return std::make_unique<WavSink>(name, sound); },
-          .encode_sound = [](SampleSource& samples) { return pcm_packets(samples); },
-          .has_frames = false};
+  return {
+      .signature = "wav",
+      .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
+        throw MediaError("output: cannot encode frames as sound");
+      },
+      .open = [name = request.name, sound](
+                  const Opening& /*opening*/) { return std::make_unique<WavSink>(name, sound); },
+      .encode_sound = [](SampleSource& samples) { return pcm_packets(samples); },
+      .has_frames = false};
 }
 
 }  // namespace piblocks

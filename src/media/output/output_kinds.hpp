@@ -106,7 +106,7 @@ Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk
           .make_encoder = [format = request.format,
                            more...] { return std::make_unique<Encoder>(format, more...); },
           .open =
-              [name = request.name, write_trailer](std::int64_t /*frames*/) {
+              [name = request.name, write_trailer](const Opening& /*opening*/) {
                 return std::make_unique<StreamSink>(name, write_trailer);
               }};
 }

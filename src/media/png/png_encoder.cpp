@@ -146,14 +146,16 @@ class PngEncoder final : public PacketPerFrameEncoder {
 class PngSequence final : public FrameSink {
  public:
   /// @param start_number  of the first picture; nothing for 1, as FFmpeg's image2 muxer has it.
-  PngSequence(FramePattern pattern, std::int64_t frames, bool overwrite,
+  PngSequence(FramePattern pattern, const Opening& opening, bool overwrite,
               std::optional<int> start_number)
       : pattern_(std::move(pattern)),
         overwrite_(overwrite),
         first_(start_number.value_or(1)),
         leaves_later_(start_number.has_value()),
-        files_(pattern_.folder(), pattern_.label()) {
-    check_names(frames);
+        files_(pattern_.folder(), pattern_.label(), Unfinished::Sharing::exclusive,
+               opening.resumption) {
+    check_names(opening.frames);
+    if (opening.resumption.is_wanted) keep_pictures(opening.frames);
   }
 
   void append(const EncodedChunk& chunk) override {
@@ -176,8 +178,10 @@ class PngSequence final : public FrameSink {
     }
     files_.commit();
   }
+  std::int64_t kept_frames() const override { return kept_; }
   std::string aftermath() const override {
     std::vector<std::string> done;
+    if (kept_ > 0) done.push_back("kept " + counted(kept_, "picture") + " of an unfinished run");
     if (leaves_later_ && counter_.frames() > 0) {
       done.push_back(
           fmt::format("{} to {}", pattern_.name(first_), pattern_.name(next_number() - 1)));
@@ -204,6 +208,17 @@ class PngSequence final : public FrameSink {
     return fs::is_regular_file(fs::symlink_status(path, unknown));
   }
 
+  /// Those that were written to the end. A run writes them in their order.
+  void keep_pictures(std::int64_t frames) {
+    for (; kept_ < frames; ++kept_) {
+      const std::string name = pattern_.name(first_ + kept_);
+      if (is_whole_png(files_.add(name))) continue;
+      files_.drop(name);
+      break;
+    }
+    counter_ = FrameCounter(kept_);
+  }
+
   /// @throws UsageError if so many pictures would replace other files, unless it is told to.
   void check_names(std::int64_t frames) {
     foreign_ = 0;
@@ -227,6 +242,7 @@ class PngSequence final : public FrameSink {
   FileSet files_;
   FrameCounter counter_;
   std::int64_t foreign_ = 0;  // files that are replaced and were no pictures of a sequence
+  std::int64_t kept_ = 0;     // pictures of an unfinished run
   std::int64_t removed_ = 0;  // pictures of an earlier sequence
   std::int64_t left_ = 0;     // other files that have the next numbers
 };
@@ -314,8 +330,8 @@ Output png_output(const OutputRequest& request) {
       .make_encoder = [format = request.format] { return std::make_unique<PngEncoder>(format); },
       .open =
           [pattern = FramePattern(request.name), overwrite = request.overwrite,
-           start_number = request.settings.start_number](std::int64_t frames) {
-            return std::make_unique<PngSequence>(pattern, frames, overwrite, start_number);
+           start_number = request.settings.start_number](const Opening& opening) {
+            return std::make_unique<PngSequence>(pattern, opening, overwrite, start_number);
           }};
 }
 

@@ -42,6 +42,16 @@ Bytes with_png_mark(ByteSpan png, PngMark mark) {
   return marked;
 }
 
+bool is_whole_png(const fs::path& path) {
+  Bytes expected;
+  append_png_chunk(expected, "IEND");
+  Bytes found(expected.size());
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-std::ssize(found), std::ios::end);
+  file.read(reinterpret_cast<char*>(found.data()), std::ssize(found));
+  return file && found == expected;
+}
+
 bool has_png_mark(const fs::path& path, PngMark mark) {
   std::error_code unknown;
   if (!fs::is_regular_file(fs::symlink_status(path, unknown))) return false;

@@ -75,7 +75,7 @@ def render(
     flags = {
         option: flag(option[2:], value)
         for option, value in given.items()
-        if option in ("--smallest", "--profile", "--overwrite")
+        if option in ("--smallest", "--profile", "--overwrite", "--resume")
     }
     texts_given = options({**given, **flags})
     if bundle is not None:

@@ -356,6 +356,7 @@ class Scene:
         max_flashes: int | None = None,
         profile: bool = False,
         overwrite: bool = False,
+        resume: bool = False,
     ) -> Rendered:
         """Renders the film. The file appears when it is complete, or not at all.
 
@@ -376,6 +377,8 @@ class Scene:
         :param bundle: a folder for the video, a poster, captions, and snippets for slides.
         :param overwrite: lets pictures of a sequence, and files of a bundle or part, replace files
             that no earlier run has made.
+        :param resume: keeps the numbered pictures that an interrupted run of the same scene and
+            options has left, and leaves those of this one if it is interrupted.
         :raises UsageError: DrawError, MediaError, IoError, SimulationError, KeyboardInterrupt
         """
         given = {
@@ -390,6 +393,7 @@ class Scene:
             "--max-flashes": max_flashes,
             "--profile": profile,
             "--overwrite": overwrite,
+            "--resume": resume,
         }
         return _render.render(self._script, file, progress, bundle, poster, frames, part, given)
 
