@@ -50,14 +50,12 @@ struct Bundle {
 struct RenderJob {
   Script script;
   /// A name whose ending selects the format: `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`, `*.png`
-  /// with one number such as `%06d`, `*.y4m`, `-` (y4m on standard output), `*.framehash`, `*.wav`,
-  /// `null`, or `*.html`, a page that holds the MP4 and steps through it.
+  /// or `*.svg` with one number such as `%06d`, `*.pdf` with a page for each frame, `*.y4m`, `-` (y4m
+  /// on standard output), `*.framehash`, `*.wav`, `null`, or `*.html`, a page that holds the MP4 and
+  /// steps through it.
   std::string output;
   EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
-  /// Renders these frames only: a film of its own or, of numbered pictures, those that a rendering
-  /// of the whole film would number alike; its other pictures stay. No part, page or bundle has it.
-  std::optional<FrameRange> frames = {};
   /// Renders this share only, to the file shard_name().
   std::optional<Shard> shard = {};
   bool profile = false;  ///< whether to measure what each step costs
@@ -71,6 +69,9 @@ struct RenderJob {
   /// Of numbered pictures: keeps those that an unfinished run of the same job has left, and leaves
   /// its own for the next one if it does not finish. No other output can be resumed.
   bool resume = false;
+  /// Renders these frames only: a film of its own or, of numbered pictures, those that a rendering
+  /// of the whole film would number alike; its other pictures stay. No part, page or bundle has it.
+  std::optional<FrameRange> frames = {};
 };
 
 /// What the work on a frame consists of, in this order; sound is both made and encoded in one.

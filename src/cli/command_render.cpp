@@ -110,8 +110,9 @@ void define_render(Command& command) {
   SceneOptions scene(command);
   command.add_required_value("-o,--output", "OUT",
                              "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
-                             "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                             "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
+                             "NAME.apng, FRAMES/%06d.png or .svg, NAME.pdf: a page for each\n"
+                             "frame, NAME.y4m, - (y4m on standard output), NAME.framehash,\n"
+                             "null, NAME.wav: the sound alone, or\n"
                              "NAME.html: a page with the video, captions and frame steps;\n"
                              "for one with the program, 'piblocks page'");
   command.add_value("--for", "WHERE",

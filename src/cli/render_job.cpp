@@ -111,13 +111,13 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
       .output = output,
       .encoder = std::move(settings),
       .jobs = options.value("--jobs", parse_jobs).value_or(std::min(processor_count(), kMaxJobs)),
-      .frames = options.value("--frames", parse_frames),
       .shard = options.value("--part", parse_part),
       .profile = options.is_given("--profile"),
       .bundle = bundle_of(options),
       .max_flashes = options.value("--max-flashes", parse_flashes),
       .overwrite = options.is_given("--overwrite"),
-      .resume = options.is_given("--resume")};
+      .resume = options.is_given("--resume"),
+      .frames = options.value("--frames", parse_frames)};
 }
 
 std::string name_of(const RenderJob& job) {

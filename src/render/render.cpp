@@ -7,6 +7,7 @@
 
 #include "core/ordered_pool.hpp"
 #include "core/stop.hpp"
+#include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
@@ -82,19 +83,20 @@ class Worker {
         profile_(profile),
         frames_done_(frames_done),
         canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
-        encoder_(plan.output.make_encoder()) {}
+        encoder_(plan.output.is_vector ? nullptr : plan.output.make_encoder()) {}
 
   /// @param kept  so many frames of the output are there already.
   EncodedWork work(std::int64_t chunk, std::int64_t kept, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
     const std::int64_t first = std::max(plan_.chunks.begin(chunk), kept);
-    encoder_->begin(first);
+    if (encoder_) encoder_->begin(first);
     canvas_.listen(stop);
     for (auto frame = first; frame < plan_.chunks.end(chunk); ++frame) {
       check_stop(stop);
       add_frame(frame, clock);
       frames_done_.fetch_add(1, std::memory_order_relaxed);
     }
+    if (!encoder_) return {std::exchange(drawn_, {}), {}, clock.spent()};
     EncodedChunk encoded = encoder_->finish();
     return {std::move(encoded), encoder_->method(), clock.spent()};
   }
@@ -104,6 +106,10 @@ class Worker {
     clock.enter(Step::compose);
     DrawList list = plan_.film.frame(plan_.frames.first + frame);
     clock.enter(Step::paint);
+    if (!encoder_) {
+      drawn_.push_back({.bytes = draw_svg(list), .pts = frame});
+      return;
+    }
     const std::span<const PixelRect> changed = canvas_.update(std::move(list));
     clock.enter(Step::convert);
     encoder_->take(canvas_.view(), changed);
@@ -115,7 +121,8 @@ class Worker {
   bool profile_;
   std::atomic<std::int64_t>& frames_done_;
   Canvas canvas_;
-  std::unique_ptr<ChunkEncoder> encoder_;
+  std::unique_ptr<ChunkEncoder> encoder_;  ///< none of vector files
+  EncodedChunk drawn_;                     ///< these
 };
 
 /// A half-open range of chunks.
@@ -146,7 +153,8 @@ void check_shard(const RenderJob& job) {
     throw UsageError(fmt::format("part {} of {}: the number must be from 1 to the count",
                                  job.shard->number, job.shard->count));
   }
-  if (job.output == "-" || job.output == "null" || is_sound_alone(job.output)) {
+  if (job.output == "-" || job.output == "null" || is_sound_alone(job.output) ||
+      has_ending(job.output, ".pdf")) {
     throw UsageError(
         fmt::format("part: there are no parts of output '{}'; name a file that the "
                     "parts are to be joined to",
@@ -223,6 +231,11 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
   if (job.max_flashes && plan.output.has_frames) {
     check_flashes(plan.film, *job.max_flashes, stop);
   }
+  if (!plan.output.open) {
+    Rendered rendered = render_pdf(job, film, plan.frames, on_progress, stop);
+    rendered.notes = notes_of(plan);
+    return rendered;
+  }
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const std::int64_t kept = sink->kept_frames();
@@ -274,7 +287,7 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
 namespace {
 
 /// Leaves out sound, and lowers a frame rate, that the job's output cannot have.
-/// @returns a note about each change.
+/// @returns a note about each change, and about motion blur.
 std::vector<std::string> fit_to_output(RenderJob& job) {
   std::vector<std::string> notes;
   const auto fit = [&](auto& script) {
@@ -291,6 +304,11 @@ std::vector<std::string> fit_to_output(RenderJob& job) {
     }
   };
   std::visit(fit, job.script);
+  const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };
+  const bool is_vector = has_ending(job.output, ".svg") || has_ending(job.output, ".pdf");
+  if (is_vector && std::ranges::any_of(scenes_of(job.script), is_blurred)) {
+    notes.push_back(fmt::format("'{}' has no motion blur: moving bodies are sharp", job.output));
+  }
   return notes;
 }
 

@@ -119,7 +119,7 @@ struct Proof {
 
 /// "the first 3 digits of π in base 16, 3.24"; nothing if the run counts no digits of pi.
 std::optional<Proof> pi_of(const ShownRun& run) {
-  constexpr std::size_t kMostDigits = 40;
+  constexpr std::size_t kMostShown = 40;
   const int base = run.scene.show.base;
   if (!run.log.pair() || !run.is_over() || run.is_endless()) return std::nullopt;
   const std::string digits = counted_pi(run.log.pair()->blocks(), run.at_end, base);
@@ -129,7 +129,7 @@ std::optional<Proof> pi_of(const ShownRun& run) {
   std::string words = (count == 1 ? "the first digit of π"
                                   : fmt::format("the first {} digits of π", readable(count))) +
                       in_base;
-  if (count > kMostDigits) return Proof{words, words};
+  if (count > kMostShown) return Proof{words, words};
   return Proof{words + ", " + digits, fmt::format("π = {}…{}", digits, in_base)};
 }
 

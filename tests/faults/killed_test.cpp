@@ -224,7 +224,8 @@ class AbandonedTest : public EveryKindTest {
  protected:
   /// What the temporary file or folder is called after.
   fs::path name_of(const Files& complete) const {
-    return out() / (is_sequence(complete) ? "%d.png" : complete.begin()->first);
+    const fs::path first = complete.begin()->first;
+    return out() / (is_sequence(complete) ? "%d" + first.extension().string() : first.string());
   }
   static bool is_sequence(const Files& complete) { return complete.size() > 1; }
 };

@@ -31,6 +31,8 @@ FILM = [*SMALL, "--fps", "10", "--to", "4"]
         ("a.webm", []),
         ("a.gif", []),
         ("a.apng", ["--transparent"]),
+        ("%02d.svg", []),
+        ("a.pdf", ["--transparent"]),
         ("a.y4m", []),
         ("a.wav", []),
         ("a.html", []),

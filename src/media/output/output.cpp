@@ -50,6 +50,8 @@ constexpr std::array kOutputKinds = {
     OutputKind{".apng", apng_output, kPictures | kAlpha | kPlays},
     OutputKind{".png", png_output, kPictures | kAlpha | kNumbers,
                " with a number field such as %06d"},
+    OutputKind{".svg", svg_output, kPictures | kAlpha | kNumbers, " likewise"},
+    OutputKind{".pdf", pdf_output, kPictures | kAlpha, " (a page for each frame)"},
     OutputKind{".y4m", y4m_output, kPictures},
     OutputKind{"-", y4m_output, kPictures, " (y4m on standard output)"},
     OutputKind{".framehash", by_module<&AvModule::framehash_output>, kPictures | kAlpha},
@@ -197,7 +199,7 @@ std::optional<int> max_frame_rate_of(const std::string& name) {
 void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name) {
   if (name == "null") return;
   if (name == "-") return check.writes_standard_output();
-  if (has_ending(name, ".png")) {
+  if (has_numbers(name)) {
     try {
       const FramePattern pattern(name);
       return check.writes_some_of(what, name, pattern.folder(), names_of_pattern(name));

@@ -151,14 +151,17 @@ struct Output {
   /// format, settings and signature can be mixed.
   std::string signature;
   /// Makes an encoder for one worker; it must not outlive the output. Thread-safe.
-  std::function<std::unique_ptr<ChunkEncoder>()> make_encoder;
+  std::function<std::unique_ptr<ChunkEncoder>()> make_encoder = {};
   /// A sink; it must not outlive the output.
   /// @throws UsageError if it cannot be opened; nothing is left behind then.
-  std::function<std::unique_ptr<FrameSink>(const Opening&)> open;
+  std::function<std::unique_ptr<FrameSink>(const Opening&)> open = {};
   /// The packets that this output makes of a soundtrack; both must outlive them.
   /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
   std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode_sound = reject_sound;
-  bool has_frames = true;               ///< if false, no frames may be encoded or appended
+  bool has_frames = true;  ///< if false, no frames may be encoded or appended
+  /// Frames go in as they are drawn. There is no encoder: packets are SVG files. Without `open`,
+  /// frames are pages of a PDF file.
+  bool is_vector = false;
   std::vector<std::string> notes = {};  ///< as Rendered's
 };
 

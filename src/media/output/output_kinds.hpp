@@ -119,6 +119,8 @@ Output webm_output(const OutputRequest& request);
 Output gif_output(const OutputRequest& request);
 Output apng_output(const OutputRequest& request);
 Output png_output(const OutputRequest& request);
+Output svg_output(const OutputRequest& request);
+Output pdf_output(const OutputRequest& request);
 Output y4m_output(const OutputRequest& request);
 /// A comment (X…) in the header of our y4m files: y4m has no tag for the matrix. Other programs
 /// skip it.

@@ -17,11 +17,12 @@ enum class PngMark {
 /// @param png  with a header as append_png_header() makes it
 Bytes with_png_mark(ByteSpan png, PngMark mark);
 
-/// Whether a file that is written from its beginning on has been written to its end.
-bool is_whole_png(const std::filesystem::path& path);
-
 /// Whether this is a file, not a symbolic link, that with_png_mark() made. False if this user may
 /// not read it. @throws IoError if reading fails.
 bool has_png_mark(const std::filesystem::path& path, PngMark mark);
+
+/// Whether this is a file, not a symbolic link, with these bytes at a place of it.
+/// @throws IoError if reading fails.
+bool has_bytes(const std::filesystem::path& path, std::size_t at, ByteSpan expected);
 
 }  // namespace piblocks

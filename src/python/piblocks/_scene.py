@@ -364,7 +364,8 @@ class Scene:
         meanwhile, and Ctrl-C stops it.
 
         :param file: its ending selects the format: .mp4, .mov, .webm, .gif, .apng, .y4m, .wav,
-            .html (a page to step through), .framehash, or pictures as "frames/%06d.png".
+            .html (a page to step through), .pdf (a page for each frame), .framehash, or pictures as
+            "frames/%06d.png" or .svg.
         :param progress: True for a line on standard error; or called with the frames done and the
             frames in all. An exception in it stops the rendering, and is raised.
         :param jobs: threads (default: one a processor); changes no byte.
