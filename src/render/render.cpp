@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "core/ordered_pool.hpp"
+#include "core/processors.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
@@ -213,6 +214,16 @@ std::vector<std::string> notes_of(const Plan& plan) {
   return notes;
 }
 
+/// More workers than processors make nothing faster, and may take no more than some 600 MB.
+int workers_of(const RenderJob& job, const View& view) {
+  constexpr std::int64_t kMost_bytes = 600'000'000;
+  constexpr std::int64_t kWorker_bytes = 90;  // a pixel: those of VP9, the most that was measured
+  const std::int64_t pixels = std::int64_t{view.width_px} * view.height_px;
+  const auto fitting =
+      static_cast<int>(std::min<std::int64_t>(kMost_bytes / kWorker_bytes / pixels, job.jobs));
+  return std::min(job.jobs, std::max(fitting, processor_count()));
+}
+
 void add(StepSeconds& sum, const StepSeconds& spent) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
 }
@@ -264,7 +275,8 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
     sound = sound_of(plan, on_progress, clock, stop);
     sink->take_sound(*sound.packets);
   }
-  OrderedPool<EncodedWork> pool(range.end - first, job.jobs, make_worker, size_of);
+  OrderedPool<EncodedWork> pool(range.end - first, workers_of(job, film.view()), make_worker,
+                                size_of);
   while (const auto work = pool.take(stop, report)) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
