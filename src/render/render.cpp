@@ -228,25 +228,8 @@ void add(StepSeconds& sum, const StepSeconds& spent) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
 }
 
-}  // namespace
-
-Film film_of(const RenderJob& job, const std::stop_token& stop) {
-  check_shard(job);
-  return Film(job.script,
-              {is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures, stop});
-}
-
-Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
-                     const std::stop_token& stop) {
-  const Plan plan(job, film);
-  if (job.max_flashes && plan.output.has_frames) {
-    check_flashes(plan.film, *job.max_flashes, stop);
-  }
-  if (!plan.output.open) {
-    Rendered rendered = render_pdf(job, film, plan.frames, on_progress, stop);
-    rendered.notes = notes_of(plan);
-    return rendered;
-  }
+Rendered render_chunks(const RenderJob& job, const Plan& plan, const OnProgress& on_progress,
+                       const std::stop_token& stop) {
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const std::int64_t kept = sink->kept_frames();
@@ -275,7 +258,7 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
     sound = sound_of(plan, on_progress, clock, stop);
     sink->take_sound(*sound.packets);
   }
-  OrderedPool<EncodedWork> pool(range.end - first, workers_of(job, film.view()), make_worker,
+  OrderedPool<EncodedWork> pool(range.end - first, workers_of(job, plan.film.view()), make_worker,
                                 size_of);
   while (const auto work = pool.take(stop, report)) {
     sink->append(work->chunk);
@@ -287,12 +270,31 @@ Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& o
   clock.enter(Step::write);
   sink->finish();
   rendered.aftermath = sink->aftermath();
-  rendered.notes = notes_of(plan);  // by now the collisions of all frames are known
   if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {
     add(rendered.profile.steps, clock.spent());
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
   }
+  return rendered;
+}
+
+}  // namespace
+
+Film film_of(const RenderJob& job, const std::stop_token& stop) {
+  check_shard(job);
+  return Film(job.script,
+              {is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures, stop});
+}
+
+Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
+                     const std::stop_token& stop) {
+  const Plan plan(job, film);
+  if (job.max_flashes && plan.output.has_frames) {
+    check_flashes(plan.film, *job.max_flashes, stop);
+  }
+  Rendered rendered = plan.output.open ? render_chunks(job, plan, on_progress, stop)
+                                       : render_pdf(job, film, plan.frames, on_progress, stop);
+  rendered.notes = notes_of(plan);  // by now the collisions of all frames are known
   return rendered;
 }
 
