@@ -30,6 +30,14 @@ struct Shard {
   friend bool operator==(const Shard&, const Shard&) = default;
 };
 
+/// Consecutive frames of a film, by their numbers. The first frame of a film is number 0.
+struct FrameRange {
+  std::int64_t first = 0;
+  std::int64_t last = 0;  ///< included
+
+  std::int64_t count() const { return last - first + 1; }
+};
+
 /// A folder for a video under the name of the job's output, and for what a lecture needs beside it:
 /// poster, captions, a text for those who cannot see it, ways to show it. Of a storyboard also a
 /// video of each part, so that a lecture can stop after it, in about twice the processor time.
@@ -43,9 +51,10 @@ struct Bundle {
 struct RenderJob {
   Script script;
   /// A name whose ending selects the format: `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`,
-  /// `*.webp`,
-  /// `*.png` with one number such as `%06d`, `*.y4m`, `-` (y4m on standard output), `*.framehash`,
-  /// `*.wav`, `null`, or `*.html`, a page that holds the MP4 and steps through it.
+  /// `*.webp`, `*.png` or `*.svg` with one number such as `%06d`, `*.pdf` with a page for each
+  /// frame,
+  /// `*.y4m`, `-` (y4m on standard output), `*.framehash`, `*.wav`, `null`, or `*.html`, a page
+  /// that holds the MP4 and steps through it.
   std::string output;
   EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
@@ -61,6 +70,12 @@ struct RenderJob {
   /// Whether files whose names piblocks makes (pictures of a sequence, files of a bundle, a shard)
   /// may replace files that no earlier run has made.
   bool overwrite = false;
+  /// Of numbered pictures: keeps those that an unfinished run of the same job has left, and leaves
+  /// its own for the next one if it does not finish. No other output can be resumed.
+  bool resume = false;
+  /// Renders these frames only: a film of its own or, of numbered pictures, those that a rendering
+  /// of the whole film would number alike; its other pictures stay. No part, page or bundle has it.
+  std::optional<FrameRange> frames = {};
 };
 
 /// What the work on a frame consists of, in this order; sound is both made and encoded in one.
@@ -83,7 +98,7 @@ struct Rendered {
   Profile profile;  ///< zero unless asked for
   /// What a user should know of the output, one line each: players that may not show it.
   std::vector<std::string> notes = {};
-  /// What became of the files of an earlier output, such as "removed 12 pictures of an earlier
+  /// What became of the files of an earlier run, such as "removed 12 pictures of an earlier
   /// run"; usually empty.
   std::string aftermath = {};
 };
@@ -95,7 +110,7 @@ struct Progress {
 
 using OnProgress = std::function<void(const Progress&)>;
 
-/// Renders every frame of the film, or of a shard of it.
+/// Renders every frame of the film, or of a range or shard of it.
 /// @param on_progress  called by the calling thread: at the start, now and then, at the end.
 /// @param stop         asks to give up: Interrupted is thrown soon after.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted

@@ -69,6 +69,10 @@ void add_run_options(Command& command) {
   command.add_value("--jobs", "N",
                     "Threads (default: one for each processor that the process may\nuse); changes "
                     "no byte of the output");
+  command.add_value("--frames", "A-B",
+                    "Render frames A to B alone; the first of the film is 0. Pictures\n"
+                    "of a sequence get the numbers that they have in the whole one,\n"
+                    "and its others stay");
   command.add_value("--part", "I/N",
                     "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
   command.add_value("--bundle", "DIR",
@@ -84,6 +88,9 @@ void add_run_options(Command& command) {
   command.add_value("--max-flashes", "N",
                     "Render nothing if the film would flash more than N times\n"
                     "within a second; 3 are held to be harmless (WCAG 2.3.1)");
+  command.add_flag("--resume",
+                   "Keep the pictures of a sequence that an interrupted run of the\n"
+                   "same command has left; if interrupted, leave what there is");
   add_overwrite(command);
   command.add_flag("--profile", "Print what each stage cost, on standard error");
   command.add_flag("--quiet", "Print nothing but errors, and what --profile asks for");
@@ -107,10 +114,11 @@ void define_render(Command& command) {
   SceneOptions scene(command);
   command.add_required_value("-o,--output", "OUT",
                              "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
-                             "NAME.apng, NAME.webp, FRAMES/%06d.png, NAME.y4m, - (y4m on\n"
-                             "standard output), NAME.framehash, null, NAME.wav: the sound\n"
-                             "alone, or NAME.html: a page with the video, captions and\n"
-                             "frame steps; for one with the program, 'piblocks page'");
+                             "NAME.apng, NAME.webp, FRAMES/%06d.png or .svg, NAME.pdf: a\n"
+                             "page for each frame, NAME.y4m, - (y4m on standard output),\n"
+                             "NAME.framehash, null, NAME.wav: the sound alone, or\n"
+                             "NAME.html: a page with the video, captions and frame steps;\n"
+                             "for one with the program, 'piblocks page'");
   command.add_value("--for", "WHERE",
                     "Size, rate and background that suit one of:\n" + destination_names());
   scene.add_picture();

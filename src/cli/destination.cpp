@@ -25,7 +25,7 @@ const std::vector<Destination>& destinations() {
        {".mov", ".png"},
        "prores_ks"},
       {"shorts", {{"view.size", "1080x1920"}, {"view.fps", "60"}}, {".mp4"}},
-      {"beamer", {{"view.size", "1280x720"}, {"view.fps", "25"}}, {".mp4", ".png"}}};
+      {"beamer", {{"view.size", "1280x720"}, {"view.fps", "25"}}, {".mp4", ".pdf", ".png"}}};
   return all;
 }
 

@@ -33,6 +33,16 @@ Shard parse_part(const std::string& text) {
       fmt::format("must be I/N, such as 2/3: I from 1 to N, and N at most {}", kMaxShards));
 }
 
+/// "120-180"
+FrameRange parse_frames(const std::string& text) {
+  const std::size_t dash = std::min(text.find('-'), text.size());
+  const std::optional<Integer> first = whole_number(text.substr(0, dash));
+  const std::optional<Integer> last = whole_number(text.substr(std::min(dash + 1, text.size())));
+  const bool is_range = first && last && *first <= *last && *last < to_integer(kMaxFrames);
+  if (is_range) return {first->get_si(), last->get_si()};
+  throw UsageError("must be A-B, such as 120-180: frames of the film, the first of which is 0");
+}
+
 double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
 
 /// Under half the size, and many times the time (tests/benchmark/encoders.md).
@@ -112,7 +122,9 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
       .bundle = bundle_of(options),
       .captions_inside = options.value("--captions", parse_captions).value_or(false),
       .max_flashes = options.value("--max-flashes", parse_flashes),
-      .overwrite = options.is_given("--overwrite")};
+      .overwrite = options.is_given("--overwrite"),
+      .resume = options.is_given("--resume"),
+      .frames = options.value("--frames", parse_frames)};
 }
 
 std::string name_of(const RenderJob& job) {

@@ -1,13 +1,18 @@
 #include "core/file_set.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "core/durability.hpp"
+#include "core/input_file.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -17,9 +22,19 @@ namespace {
 /// old ones is made before the first file moves.
 constexpr const char* kNew = "new";
 constexpr const char* kOld = "old";
+constexpr const char* kJob = "job";
 
 void make_folder(const fs::path& path) {
   if (::mkdir(path.c_str(), 0777) != 0) fail_output("make", path, errno);
+}
+
+/// @param final_path  for messages
+void write_whole(const fs::path& path, std::span<const std::uint8_t> bytes,
+                 const fs::path& final_path) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!file.is_open()) fail_output("make", final_path, errno);
+  if (const int error = file.write(bytes)) fail_output("write", final_path, error);
+  if (const int error = file.close()) fail_output("close", final_path, error);
 }
 
 /// Moves files to their names, and old files out of the way, so that they can be moved back. Once
@@ -64,25 +79,62 @@ class Renaming {
 
 }  // namespace
 
-FileSet::FileSet(const fs::path& folder, const std::string& label, Unfinished::Sharing sharing)
+FileSet::FileSet(const fs::path& folder, const std::string& label, Unfinished::Sharing sharing,
+                 Resumption resumption)
     : folder_(folder.empty() ? "." : folder),
+      label_(label),
+      resumption_(std::move(resumption)),
       made_folders_(folder_),
       temporary_(folder_ / label, Unfinished::Kind::folder, sharing,
-                 [this](const fs::path& left) { return finish_commit(left); }) {
+                 [this](const fs::path& left) { return fate_of(left); }) {
+  std::error_code error;
+  has_files_ = fs::exists(temporary_.path() / kNew, error);
+  if (has_files_) return;
   make_folder(temporary_.path() / kNew);
+  const auto* const job = reinterpret_cast<const std::uint8_t*>(resumption_.job.data());
+  if (!resumption_.job.empty()) {
+    write_whole(temporary_.path() / kJob, {job, resumption_.job.size()}, folder_ / label);
+  }
+}
+
+FileSet::~FileSet() {
+  if (resumption_.is_wanted && has_files_) temporary_.release();
+}
+
+Unfinished::Fate FileSet::fate_of(const fs::path& folder) const {
+  std::error_code error;
+  const bool has_moved_files = fs::exists(folder / kOld, error);
+  if (error) return Unfinished::Fate::left;
+  if (has_moved_files) {
+    return finish_commit(folder) ? Unfinished::Fate::removed : Unfinished::Fate::left;
+  }
+  const bool has_files = !entries_of(folder / kNew, error).empty();
+  if (!resumption_.is_wanted || !has_files) return Unfinished::Fate::removed;
+  check_job(folder);
+  return Unfinished::Fate::adopted;
 }
 
 bool FileSet::finish_commit(const fs::path& folder) const {
   std::error_code error;
-  // Without the old files nothing has moved yet; without the new ones everything has.
-  for (const char* files : {kOld, kNew}) {
-    if (!fs::exists(folder / files, error)) return !error;
-  }
+  if (!fs::exists(folder / kNew, error)) return !error;  // everything has moved
   for (const fs::path& path : entries_of(folder / kNew, error)) {
     fs::rename(path, folder_ / path.filename(), error);
     if (error) return false;
   }
   return !error;
+}
+
+void FileSet::check_job(const fs::path& folder) const {
+  const std::string& wanted = resumption_.job;
+  const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kJob, 2 * wanted.size());
+  const std::string left(bytes.begin(), bytes.end());
+  if (left == wanted) return;
+  const auto at = std::size_t(std::ranges::mismatch(wanted, left).in1 - wanted.begin());
+  const std::size_t begin = at == 0 ? 0 : wanted.rfind('\n', at - 1) + 1;
+  throw UsageError(fmt::format(
+      "output: the unfinished files of '{}' are of another run: they differ in {}; give the same "
+      "command, or leave --resume out to begin anew",
+      (folder_ / label_).string(), wanted.substr(begin, wanted.find(": ", begin) - begin)));
 }
 
 fs::path FileSet::add(const std::string& name) {
@@ -93,11 +145,8 @@ fs::path FileSet::add(const std::string& name) {
 
 void FileSet::add(const std::string& name, std::span<const std::uint8_t> bytes) {
   const fs::path path = add(name);
-  const fs::path final_path = folder_ / name;
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (!file.is_open()) fail_output("make", final_path, errno);
-  if (const int error = file.write(bytes)) fail_output("write", final_path, error);
-  if (const int error = file.close()) fail_output("close", final_path, error);
+  has_files_ = true;
+  write_whole(path, bytes, folder_ / name);
 }
 
 void FileSet::drop(const std::string& name) {

@@ -13,6 +13,14 @@
 
 namespace piblocks {
 
+/// How a set goes on where an earlier one has ended.
+struct Resumption {
+  std::string job = {};  ///< what the files depend on, in lines "NAME: VALUE"
+  /// Whether to take over the files of a set for this job that a process has left, and to leave
+  /// those of this one if it is not committed.
+  bool is_wanted = false;
+};
+
 /// Files of one folder that take their names together, replacing older ones, or none of them does.
 class FileSet {
  public:
@@ -20,9 +28,14 @@ class FileSet {
   /// the others of these files take theirs now: they are complete.
   /// @param label    tells which files belong together: as Unfinished's name.
   /// @param sharing  whether another set with this label may be written at the same time.
-  /// @throws UsageError, IoError as Unfinished.
+  /// @param resumption  a file that is taken over is where add() says.
+  /// @throws UsageError, IoError as Unfinished; UsageError if files of another job would have to be
+  ///         taken over.
   FileSet(const std::filesystem::path& folder, const std::string& label,
-          Unfinished::Sharing sharing = Unfinished::Sharing::exclusive);
+          Unfinished::Sharing sharing = Unfinished::Sharing::exclusive, Resumption resumption = {});
+  ~FileSet();
+  FileSet(const FileSet&) = delete;
+  FileSet& operator=(const FileSet&) = delete;
 
   /// A folder for intermediate files; removed with everything in it.
   std::filesystem::path temporary_folder() const { return temporary_.path(); }
@@ -46,10 +59,15 @@ class FileSet {
   void check_destination(const std::string& name) const;
   void prepare() const;
   void move_into_place() const;
-  /// Of a folder that a killed process left.
+  // Of a folder that a killed process left.
+  Unfinished::Fate fate_of(const std::filesystem::path& folder) const;
   bool finish_commit(const std::filesystem::path& folder) const;
+  void check_job(const std::filesystem::path& folder) const;
 
   std::filesystem::path folder_;
+  std::string label_;
+  Resumption resumption_;
+  bool has_files_ = false;
   MadeFolders made_folders_;
   Unfinished temporary_;            // holds the files until they take their names
   std::vector<std::string> names_;  // of the files

@@ -110,35 +110,6 @@ bool is_own(int descriptor) {
   return status.st_uid == ::geteuid() && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode));
 }
 
-/// @return whether a process is writing it.
-bool remove_unless_locked(const fs::path& path, const Unfinished::Rescue& rescue) {
-  Descriptor descriptor = open(path, Kind::folder);
-  const bool is_folder = descriptor.is_open();
-  if (!is_folder) descriptor = open(path, Kind::file);
-  if (!descriptor.is_open() || !is_own(descriptor.get())) return false;
-  if (!take_lock(descriptor.get())) return errno == EWOULDBLOCK;
-  if (is_folder && rescue && !rescue(path)) return false;
-  std::error_code ignored;  // the output does not depend on it
-  fs::remove_all(path, ignored);
-  return false;
-}
-
-/// Removes what killed processes left for this name.
-/// @param own  is left out.
-/// @return whether another process is writing for the same name.
-bool remove_abandoned(const fs::path& final_path, const fs::path& own,
-                      const Unfinished::Rescue& rescue) {
-  const std::string final_name = final_path.filename();
-  bool is_shared = false;
-  std::error_code unreadable;
-  for (const fs::path& path : entries_of(folder_of(final_path), unreadable)) {
-    const std::string name = path.filename();
-    if (!is_temporary_name(name, final_name) || name == own.filename()) continue;
-    is_shared |= remove_unless_locked(path, rescue);
-  }
-  return is_shared;
-}
-
 /// @return a closed descriptor, with errno set, if that fails: EEXIST if another name may work.
 Descriptor make_empty(const std::string& path, Kind kind) {
   if (kind == Kind::file) {
@@ -156,17 +127,46 @@ Descriptor make_empty(const std::string& path, Kind kind) {
 
 }  // namespace
 
-Unfinished::Unfinished(const fs::path& final_path, Kind kind, Sharing sharing,
-                       const Rescue& rescue) {
-  remove_abandoned(final_path, {}, rescue);
-  make(final_path, kind);
+Unfinished::Unfinished(const fs::path& final_path, Kind kind, Sharing sharing, const Judge& judge) {
+  take_abandoned(final_path, judge);
+  const bool is_adopted = !path_.empty();
+  if (!is_adopted) make(final_path, kind);
   if (sharing == Sharing::shared) return;
   // Two processes that start together see each other here, and neither goes on.
-  if (!remove_abandoned(final_path, path_, rescue)) return;
-  remove();
+  if (!take_abandoned(final_path, [](const fs::path&) { return Fate::left; })) return;
+  is_adopted ? release() : remove();
   throw UsageError(fmt::format(
       "output: cannot write '{}': another run is writing it; wait for that, or use another name",
       final_path.string()));
+}
+
+/// Removes or adopts what killed processes left for this name.
+/// @return whether another process is writing for the same name.
+bool Unfinished::take_abandoned(const fs::path& final_path, const Judge& judge) {
+  const std::string final_name = final_path.filename();
+  bool is_shared = false;
+  std::error_code unreadable;
+  for (const fs::path& path : entries_of(folder_of(final_path), unreadable)) {
+    if (path == path_ || !is_temporary_name(path.filename().string(), final_name)) continue;
+    Descriptor descriptor = open(path, Kind::folder);
+    const bool is_folder = descriptor.is_open();
+    if (!is_folder) descriptor = open(path, Kind::file);
+    if (!descriptor.is_open() || !is_own(descriptor.get())) continue;
+    if (!take_lock(descriptor.get())) {
+      is_shared |= errno == EWOULDBLOCK;
+      continue;
+    }
+    const Fate fate = is_folder && judge ? judge(path) : Fate::removed;
+    if (fate == Fate::left) continue;
+    if (fate == Fate::adopted && path_.empty()) {
+      path_ = path;
+      lock_ = std::move(descriptor);
+      continue;
+    }
+    std::error_code ignored;  // the output does not depend on it
+    fs::remove_all(path, ignored);
+  }
+  return is_shared;
 }
 
 void Unfinished::make(const fs::path& final_path, Kind kind) {

@@ -22,14 +22,16 @@ class Unfinished {
   enum class Kind { file, folder };
   /// Whether several processes may write for the same name at the same time.
   enum class Sharing { shared, exclusive };
-  /// Saves complete files from a folder that a killed process left.
-  /// @return whether the rest may be removed.
-  using Rescue = std::function<bool(const std::filesystem::path& folder)>;
+  /// What becomes of a folder that a killed process left.
+  enum class Fate { removed, left, adopted };
+  using Judge = std::function<Fate(const std::filesystem::path& folder)>;
 
+  /// @param judge  decides about such folders, which are removed without it. It may save files. The
+  ///               first folder to be adopted is used instead of a new one.
   /// @throws UsageError if it cannot be made, or another process is writing for an exclusive name;
-  ///         IoError if the disk is full or broken.
+  ///         IoError if the disk is full or broken; what judge throws.
   Unfinished(const std::filesystem::path& final_path, Kind kind, Sharing sharing = Sharing::shared,
-             const Rescue& rescue = {});
+             const Judge& judge = {});
   ~Unfinished();
   Unfinished(const Unfinished&) = delete;
   Unfinished& operator=(const Unfinished&) = delete;
@@ -37,10 +39,11 @@ class Unfinished {
   std::filesystem::path path() const { return path_; }
   /// Open as long as the object lives.
   int descriptor() const noexcept { return lock_.get(); }
-  /// Nothing is left under path(): it has been renamed.
+  /// Leaves path() alone: nothing is there any more, or it is for a later process.
   void release() noexcept { path_.clear(); }
 
  private:
+  bool take_abandoned(const std::filesystem::path& final_path, const Judge& judge);
   void make(const std::filesystem::path& final_path, Kind kind);
   void remove() noexcept;
 

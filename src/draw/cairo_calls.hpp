@@ -66,7 +66,7 @@ class FoundFunction<Result(Arguments...)> {
   X(cairo_set_font_face) X(cairo_set_font_options) X(cairo_set_font_size) X(cairo_set_line_cap) \
   X(cairo_set_line_join) X(cairo_set_line_width) X(cairo_set_operator) X(cairo_set_source) \
   X(cairo_set_source_rgb) X(cairo_set_source_rgba) X(cairo_set_source_surface) \
-  X(cairo_show_glyphs) X(cairo_show_text) X(cairo_status) X(cairo_status_to_string) \
+  X(cairo_show_glyphs) X(cairo_show_page) X(cairo_show_text) X(cairo_status) X(cairo_status_to_string) \
   X(cairo_stroke) X(cairo_stroke_preserve) X(cairo_surface_destroy) X(cairo_surface_finish) \
   X(cairo_surface_flush) X(cairo_surface_get_device_offset) X(cairo_surface_get_type) \
   X(cairo_surface_mark_dirty) X(cairo_surface_set_device_offset) X(cairo_surface_status) \

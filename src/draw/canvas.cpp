@@ -58,16 +58,6 @@ cairo_surface_t* make_pdf(cairo_write_func_t write, void* bytes, double width, d
   return surface;
 }
 
-std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
-  std::vector<std::uint8_t> bytes;
-  const CairoSurfacePtr surface(make(append_bytes, &bytes, list.width_px, list.height_px));
-  const CairoPtr cr(cairo_create(surface.get()));
-  Painter(TextSetting::lines).paint(*cr, list);
-  cairo_surface_finish(surface.get());
-  check_cairo(cairo_surface_status(surface.get()), "finish the vector file");
-  return bytes;
-}
-
 /// How Cairo names groups and images in an SVG file: "surface12" and "image5" in version 1.16,
 /// "source-12" in 1.18.
 constexpr std::array<std::string_view, 3> kIdPrefixes = {"surface", "source-", "image"};
@@ -107,6 +97,27 @@ std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
 }
 
 }  // namespace
+
+/// A file of Cairo's, as far as it has been written.
+struct VectorFile {
+  VectorFile(MakeSurface make, int width_px, int height_px)
+      : surface(make(append_bytes, &bytes, width_px, height_px)), cr(cairo_create(surface.get())) {}
+
+  /// The bytes that have come since the last call.
+  std::vector<std::uint8_t> take() {
+    check_cairo(cairo_surface_status(surface.get()), "write the vector file");
+    return std::exchange(bytes, {});
+  }
+  std::vector<std::uint8_t> finish() {
+    cairo_surface_finish(surface.get());
+    return take();
+  }
+
+  std::vector<std::uint8_t> bytes;
+  Painter painter{TextSetting::lines};
+  CairoSurfacePtr surface;
+  CairoPtr cr;
+};
 
 struct Canvas::Pixels {
   Pixels(int width_px, int height_px, Background background)
@@ -278,9 +289,30 @@ Image draw_pixels(const DrawList& list) {
 }
 
 std::vector<std::uint8_t> draw_svg(const DrawList& list) {
-  return with_fixed_ids(draw_file(list, make_svg));
+  VectorFile file(make_svg, list.width_px, list.height_px);
+  file.painter.paint(*file.cr, list);
+  return with_fixed_ids(file.finish());
 }
 
-std::vector<std::uint8_t> draw_pdf(const DrawList& list) { return draw_file(list, make_pdf); }
+std::vector<std::uint8_t> draw_pdf(const DrawList& list) {
+  PdfPages pages(list.width_px, list.height_px);
+  std::vector<std::uint8_t> pdf = pages.add(list);
+  const std::vector<std::uint8_t> end = pages.finish();
+  pdf.insert(pdf.end(), end.begin(), end.end());
+  return pdf;
+}
+
+PdfPages::PdfPages(int width_px, int height_px)
+    : file_(std::make_unique<VectorFile>(make_pdf, width_px, height_px)) {}
+
+PdfPages::~PdfPages() = default;
+
+std::vector<std::uint8_t> PdfPages::add(const DrawList& list) {
+  file_->painter.paint(*file_->cr, list);
+  cairo_show_page(file_->cr.get());
+  return file_->take();
+}
+
+std::vector<std::uint8_t> PdfPages::finish() { return file_->finish(); }
 
 }  // namespace piblocks

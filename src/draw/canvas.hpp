@@ -52,6 +52,23 @@ std::vector<std::uint8_t> draw_svg(const DrawList& list);
 /// The same as a PDF file of one page, one point a pixel; text stays text.
 std::vector<std::uint8_t> draw_pdf(const DrawList& list);
 
+/// A PDF file with a page for each picture, in pieces. Used by one thread at a time.
+class PdfPages {
+ public:
+  PdfPages(int width_px, int height_px);
+  ~PdfPages();
+  PdfPages(const PdfPages&) = delete;
+  PdfPages& operator=(const PdfPages&) = delete;
+
+  /// @returns the next bytes of the file. @throws DrawError
+  std::vector<std::uint8_t> add(const DrawList& list);
+  /// @returns its last bytes. @throws DrawError
+  std::vector<std::uint8_t> finish();
+
+ private:
+  std::unique_ptr<struct VectorFile> file_;
+};
+
 /// Name and version of each drawing library that is linked, such as "cairo 1.16.0", and the font.
 std::vector<std::string> draw_library_versions();
 /// The same in one line: all that may change a pixel.

@@ -179,18 +179,17 @@ void add(Profile& sum, const Profile& more) {
 Profile render_shots(RenderJob job, const Film& film, FileSet& files, const OnProgress& on_progress,
                      const std::stop_token& stop) {
   Profile profile;
-  std::optional<FilmSound> sound;
-  if (sound_of(job.script).on) sound.emplace(film, stop, [](std::int64_t /*pairs*/) {});
   job.max_flashes.reset();  // the whole film has been checked
   const std::string video = job.output;
   for (std::size_t i = 0; i < film.segments().size(); ++i) {
     const FrameRange frames = film.shot(i);
-    files.add(shot_name(video, i + 1, ".png"), draw_png(film.frame(frames.end - 1), stop));
+    files.add(shot_name(video, i + 1, ".png"), draw_png(film.frame(frames.last), stop));
+    job.frames = frames;
     job.output = files.add(shot_name(video, i + 1, ".mp4"));
     const auto report = [&](const Progress& shot) {
-      on_progress({frames.begin + shot.frames_done, film.frame_count()});
+      on_progress({frames.first + shot.frames_done, film.frame_count()});
     };
-    add(profile, render_shot(job, film, frames, sound ? &*sound : nullptr, report, stop).profile);
+    add(profile, render_film(job, film, report, stop).profile);
   }
   return profile;
 }

@@ -187,9 +187,9 @@ std::string file_of(const Cues& cues, std::int64_t end, const Rational& frame_ra
 Cues part_of(const Cues& cues, const FrameRange& frames) {
   Cues part;
   // The first cue may have begun before.
-  for (auto cue = std::prev(cues.upper_bound(frames.begin)); cue != cues.lower_bound(frames.end);
+  for (auto cue = std::prev(cues.upper_bound(frames.first)); cue != cues.upper_bound(frames.last);
        ++cue) {
-    part[std::max(cue->first, frames.begin) - frames.begin] = cue->second;
+    part[std::max(cue->first, frames.first) - frames.first] = cue->second;
   }
   return part;
 }

@@ -23,6 +23,10 @@ struct Chunks {
     return chunk == count() ? frame_count : chunk * frames_per_chunk;
   }
   std::int64_t end(std::int64_t chunk) const { return begin(chunk + 1); }
+  /// How many chunks end before this frame.
+  std::int64_t ended_by(std::int64_t frame) const {
+    return frame >= frame_count ? count() : std::min(frame / frames_per_chunk, count() - 1);
+  }
 };
 
 }  // namespace piblocks

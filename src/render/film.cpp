@@ -65,6 +65,11 @@ struct FadeRamps {
   std::optional<Ramp> rise;  ///< of the segment itself
 };
 
+/// So many samples as there is room for, of so many pairs.
+std::size_t room(std::span<const float> samples, std::int64_t pairs) {
+  return 2 * std::min(samples.size() / 2, static_cast<std::size_t>(pairs));
+}
+
 /// From one frame before the fade, where only the segment before is seen, to the first one after
 /// it, where only the new one is. Half-way both are silent.
 FadeRamps ramps_of(const PlacedSegment& segment, const Rational& frame_rate) {
@@ -295,7 +300,7 @@ void Film::place_segments(const Storyboard& story) {
 FrameRange Film::shot(std::size_t segment) const {
   const bool is_last = segment + 1 == segments_.size();
   return {segments_[segment].first_frame,
-          is_last ? frame_count_ : segments_[segment + 1].first_frame};
+          (is_last ? frame_count_ : segments_[segment + 1].first_frame) - 1};
 }
 
 DrawList Film::frame(std::int64_t number) const {
@@ -330,29 +335,29 @@ std::int64_t frame_at(const Film& film, const Instant& instant) {
                                to_text(Rational(to_integer(film.frame_count())) / rate)));
 }
 
-FilmSound::FilmSound(const Film& film, std::stop_token stop,
+FilmSound::FilmSound(const Film& film, const FrameRange& frames, std::stop_token stop,
                      std::function<void(std::int64_t)> on_samples)
     : soundtrack_(voices_of(film),
                   Rational(to_integer(film.frame_count())) / film.view().frame_rate),
       stop_(std::move(stop)),
-      on_samples_(std::move(on_samples)) {}
+      on_samples_(std::move(on_samples)),
+      before_(samples_before(frames.first, film.view().frame_rate)),
+      size_(sound_format(frames, film.view().frame_rate).size),
+      is_cut_(frames.last < film.frames().last) {}
 
 std::size_t FilmSound::read(std::span<float> samples) {
-  check_stop(stop_);
-  const std::size_t count = soundtrack_.read(samples);
-  count_ += static_cast<std::int64_t>(count);
-  on_samples_(count_);
-  return count;
-}
-
-std::size_t ShotSound::read(std::span<float> samples) {
-  const auto room = std::min<std::int64_t>(std::ssize(samples) / 2, left_);
-  const std::size_t count = film_.read(samples.first(2 * std::size_t(room)));
-  for (std::size_t i = 0; i < count; ++i, --left_) {
-    const auto weight = float(weight_before_cut(double(left_)));
+  // The level of each sample depends on those before it.
+  for (check_stop(stop_); before_ > 0; check_stop(stop_)) {
+    before_ -= std::int64_t(soundtrack_.read(samples.first(room(samples, before_))));
+  }
+  const std::size_t count = soundtrack_.read(samples.first(room(samples, size_ - count_)));
+  for (std::size_t i = 0; is_cut_ && i < count; ++i) {
+    const auto weight = float(weight_before_cut(double(size_ - count_ - std::int64_t(i))));
     samples[2 * i] *= weight;
     samples[2 * i + 1] *= weight;
   }
+  count_ += static_cast<std::int64_t>(count);
+  on_samples_(count_);
   return count;
 }
 

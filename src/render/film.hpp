@@ -4,6 +4,7 @@
 
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
 #include <piblocks/two_blocks.hpp>
@@ -118,14 +119,6 @@ class FilmSegment {
   std::function<DrawList(std::int64_t number)> card_frame_;
 };
 
-/// Consecutive frames of a film.
-struct FrameRange {
-  std::int64_t begin = 0;
-  std::int64_t end = 0;
-
-  std::int64_t count() const noexcept { return end - begin; }
-};
-
 /// A segment and its place in the film.
 struct PlacedSegment {
   FilmSegment segment;
@@ -147,11 +140,11 @@ class Film {
 
   const View& view() const noexcept { return view_; }
   std::int64_t frame_count() const noexcept { return frame_count_; }
+  FrameRange frames() const noexcept { return {0, frame_count_ - 1}; }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
   /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
   std::span<const PlacedSegment> segments() const noexcept { return segments_; }
-  FrameRange frames() const noexcept { return {0, frame_count_}; }
   /// The frames of a segment that a lecturer shows by itself: from the first one of its own fade to
   /// the last one before the next fade. Shots follow each other without a gap.
   FrameRange shot(std::size_t segment) const;
@@ -175,25 +168,28 @@ class Film {
 /// @throws UsageError if the film has no such frame.
 std::int64_t frame_at(const Film& film, const Instant& instant);
 
-/// Of a soundtrack that is as long as so many frames, to the nearest sample.
-inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_rate) {
-  const Rational size = Rational(to_integer(frame_count)) / frame_rate * Soundtrack::kRate_hz;
-  return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
+/// The pairs of samples before a frame, to the nearest one.
+inline std::int64_t samples_before(std::int64_t frame, const Rational& frame_rate) {
+  const Rational samples = Rational(to_integer(frame)) / frame_rate * Soundtrack::kRate_hz;
+  return floor(samples + Rational(1, 2)).get_si();
 }
 
+/// Of the soundtrack of these frames.
 inline SoundFormat sound_format(const FrameRange& frames, const Rational& frame_rate) {
-  SoundFormat format = sound_format(frames.end, frame_rate);
-  format.size -= sound_format(frames.begin, frame_rate).size;
-  return format;
+  return {.rate_hz = Soundtrack::kRate_hz,
+          .size = samples_before(frames.last + 1, frame_rate) -
+                  samples_before(frames.first, frame_rate)};
 }
 
 /// A film's soundtrack, until it is told to stop: each run of each segment at its time, and as loud
-/// as its segment is seen. Cards are silent.
+/// as its segment is seen. Cards are silent. Of a range of frames, the samples that the whole film
+/// has there; if it ends before the film, they fade out, so that their end does not click.
 class FilmSound final : public SampleSource {
  public:
   /// @param film        must outlive it.
   /// @param on_samples  is told how many pairs there are so far.
-  FilmSound(const Film& film, std::stop_token stop, std::function<void(std::int64_t)> on_samples);
+  FilmSound(const Film& film, const FrameRange& frames, std::stop_token stop,
+            std::function<void(std::int64_t)> on_samples);
 
   std::size_t read(std::span<float> samples) override;
 
@@ -201,20 +197,10 @@ class FilmSound final : public SampleSource {
   Soundtrack soundtrack_;
   std::stop_token stop_;
   std::function<void(std::int64_t)> on_samples_;
+  std::int64_t before_;  ///< pairs to leave out
+  std::int64_t size_;
+  bool is_cut_;
   std::int64_t count_ = 0;
-};
-
-/// The next pairs of a soundtrack, which fade out so that their end does not click.
-class ShotSound final : public SampleSource {
- public:
-  /// @param film  must outlive it.
-  ShotSound(SampleSource& film, std::int64_t pairs) : film_(film), left_(pairs) {}
-
-  std::size_t read(std::span<float> samples) override;
-
- private:
-  SampleSource& film_;
-  std::int64_t left_;
 };
 
 }  // namespace piblocks

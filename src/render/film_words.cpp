@@ -54,7 +54,7 @@ std::string last_count(const ShownRun& run) {
 }
 
 std::optional<Proof> pi_of(const ShownRun& run) {
-  constexpr std::size_t kMostDigits = 40;
+  constexpr std::size_t kMostShown = 40;
   const int base = run.scene.show.base;
   if (!run.log.pair() || !run.is_over() || run.is_endless()) return std::nullopt;
   const std::string digits = counted_pi(run.log.pair()->blocks(), run.at_end, base);
@@ -64,7 +64,7 @@ std::optional<Proof> pi_of(const ShownRun& run) {
   std::string words = (count == 1 ? "the first digit of π"
                                   : fmt::format("the first {} digits of π", readable(count))) +
                       in_base;
-  if (count > kMostDigits) return Proof{words, words};
+  if (count > kMostShown) return Proof{words, words};
   return Proof{words + ", " + digits, fmt::format("π = {}…{}", digits, in_base)};
 }
 

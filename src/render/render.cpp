@@ -6,7 +6,9 @@
 #include <atomic>
 
 #include "core/ordered_pool.hpp"
+#include "core/processors.hpp"
 #include "core/stop.hpp"
+#include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
@@ -21,31 +23,44 @@
 namespace piblocks {
 namespace {
 
+FrameRange frames_of(const RenderJob& job, const Film& film) {
+  const FrameRange all = film.frames();
+  const FrameRange frames = job.frames.value_or(all);
+  if (0 <= frames.first && frames.first <= frames.last && frames.last <= all.last) return frames;
+  throw UsageError(fmt::format("frames: there are no frames {}-{}; those of the film are {}-{}",
+                               frames.first, frames.last, all.first, all.last));
+}
+
+/// Those of the job. The first picture of a range has the number that it has in the whole sequence.
+EncoderSettings settings_of(const RenderJob& job) {
+  EncoderSettings settings = job.encoder;
+  if (job.frames && has_numbers(job.output)) {
+    settings.start_number = settings.start_number.value_or(1) + int(job.frames->first);
+  }
+  return settings;
+}
+
 /// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
-  /// @param shared_sound  null for the film's own
-  Plan(const RenderJob& job, const Film& of, const FrameRange& shown, SampleSource* shared_sound)
+  Plan(const RenderJob& job, const Film& of)
       : film(of),
-        frames(shown),
-        film_sound(shared_sound),
-        sound(soundtrack_of(job, film, frames)),
+        frames(frames_of(job, film)),
+        sound(soundtrack_of(job)),
         output(set_up_output(
             job.output,
             {film.view().width_px, film.view().height_px, film.view().frame_rate,
              film.view().background == Background::transparent},
-            job.encoder, sound, job.overwrite,
+            settings_of(job), sound, job.overwrite,
             job.captions_inside ? captions_of(film, frames) : std::vector<Caption>())),
         chunks{output.has_frames ? frames.count() : 0, output.frames_per_chunk} {}
 
-  static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film,
-                                                  const FrameRange& frames) {
+  std::optional<SoundFormat> soundtrack_of(const RenderJob& job) const {
     if (!is_sound_alone(job.output) && !sound_of(job.script).on) return std::nullopt;
     return sound_format(frames, film.view().frame_rate);
   }
 
   const Film& film;
-  FrameRange frames;
-  SampleSource* film_sound;
+  FrameRange frames;  ///< of the film; frame 0 of the output is the first of these
   std::optional<SoundFormat> sound;
   Output output;
   Chunks chunks;
@@ -72,20 +87,22 @@ class Worker {
         profile_(profile),
         frames_done_(frames_done),
         canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
-        encoder_(plan.output.make_encoder()) {}
+        encoder_(plan.output.is_vector ? nullptr : plan.output.make_encoder()) {}
 
-  EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
+  /// @param kept  so many frames of the output are there already.
+  EncodedWork work(std::int64_t chunk, std::int64_t kept, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
+    const std::int64_t first = std::max(plan_.chunks.begin(chunk), kept);
     canvas_.listen(stop);
-    const std::int64_t first = plan_.chunks.begin(chunk);
     if (plan_.output.needs_frame_before && first > 0) take_frame(first - 1, clock);
-    encoder_->begin(first);
+    if (encoder_) encoder_->begin(first);
     for (auto frame = first; frame < plan_.chunks.end(chunk); ++frame) {
       check_stop(stop);
       take_frame(frame, clock);
-      encoder_->encode();
+      if (encoder_) encoder_->encode();
       frames_done_.fetch_add(1, std::memory_order_relaxed);
     }
+    if (!encoder_) return {std::exchange(drawn_, {}), {}, clock.spent()};
     EncodedChunk encoded = encoder_->finish();
     return {std::move(encoded), encoder_->method(), clock.spent()};
   }
@@ -93,8 +110,12 @@ class Worker {
  private:
   void take_frame(std::int64_t frame, StepClock& clock) {
     clock.enter(Step::compose);
-    DrawList list = plan_.film.frame(plan_.frames.begin + frame);
+    DrawList list = plan_.film.frame(plan_.frames.first + frame);
     clock.enter(Step::paint);
+    if (!encoder_) {
+      drawn_.push_back({.bytes = draw_svg(list), .pts = frame});
+      return;
+    }
     const std::span<const PixelRect> changed = canvas_.update(std::move(list));
     clock.enter(Step::convert);
     encoder_->take(canvas_.view(), changed);
@@ -105,7 +126,8 @@ class Worker {
   bool profile_;
   std::atomic<std::int64_t>& frames_done_;
   Canvas canvas_;
-  std::unique_ptr<ChunkEncoder> encoder_;
+  std::unique_ptr<ChunkEncoder> encoder_;  ///< none of vector files
+  EncodedChunk drawn_;                     ///< these
 };
 
 /// A half-open range of chunks.
@@ -120,10 +142,14 @@ ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
 }
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
-  if (!job.shard) return plan.output.open(plan.chunks.frame_count);
+  if (!job.shard && !has_numbers(job.output)) return plan.output.open({plan.chunks.frame_count});
   ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
-  header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
-  return open_shard(shard_name(job.output, *job.shard), header, job.overwrite);
+  if (job.shard) {
+    header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
+    return open_shard(shard_name(job.output, *job.shard), header, job.overwrite);
+  }
+  if (job.frames) header.emplace_back("first-frame", std::to_string(job.frames->first));
+  return plan.output.open({plan.chunks.frame_count, {text_of(header), job.resume}});
 }
 
 void check_shard(const RenderJob& job) {
@@ -135,7 +161,8 @@ void check_shard(const RenderJob& job) {
   if (job.captions_inside) {
     throw UsageError("part: parts have no captions inside; leave --captions or --part out");
   }
-  if (job.output == "-" || job.output == "null" || is_sound_alone(job.output)) {
+  if (job.output == "-" || job.output == "null" || is_sound_alone(job.output) ||
+      has_ending(job.output, ".pdf")) {
     throw UsageError(
         fmt::format("part: there are no parts of output '{}'; name a file that the "
                     "parts are to be joined to",
@@ -173,15 +200,10 @@ SoundWork sound_of(const Plan& plan, const OnProgress& on_progress, StepClock& c
                    const std::stop_token& stop) {
   const auto report = [&](std::int64_t samples) {
     if (plan.output.has_frames || samples == plan.sound->size) return;
-    const std::int64_t frames = plan.film.frame_count();
+    const std::int64_t frames = plan.frames.count();
     on_progress({samples * frames / plan.sound->size, frames});
   };
-  SoundWork work;
-  if (plan.film_sound != nullptr) {
-    work.samples = std::make_unique<ShotSound>(*plan.film_sound, plan.sound->size);
-  } else {
-    work.samples = std::make_unique<FilmSound>(plan.film, stop, report);
-  }
+  SoundWork work{std::make_unique<FilmSound>(plan.film, plan.frames, stop, report), nullptr};
   work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*work.samples), clock);
   return work;
 }
@@ -199,38 +221,37 @@ std::vector<std::string> notes_of(const Plan& plan) {
   return notes;
 }
 
+/// More workers than processors make nothing faster, and may take no more than some 600 MB.
+int workers_of(const RenderJob& job, const View& view) {
+  constexpr std::int64_t kMost_bytes = 600'000'000;
+  constexpr std::int64_t kWorker_bytes = 90;  // a pixel: those of VP9, the most that was measured
+  const std::int64_t pixels = std::int64_t{view.width_px} * view.height_px;
+  const auto fitting =
+      static_cast<int>(std::min<std::int64_t>(kMost_bytes / kWorker_bytes / pixels, job.jobs));
+  return std::min(job.jobs, std::max(fitting, processor_count()));
+}
+
 void add(StepSeconds& sum, const StepSeconds& spent) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
 }
 
-}  // namespace
-
-Film film_of(const RenderJob& job, const std::stop_token& stop) {
-  check_shard(job);
-  return Film(job.script,
-              {is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures, stop});
-}
-
-namespace {
-
-Rendered render_plan(const RenderJob& job, const Plan& plan, const OnProgress& on_progress,
-                     const std::stop_token& stop) {
-  if (job.max_flashes && plan.output.has_frames) {
-    check_flashes(plan.film, *job.max_flashes, stop);
-  }
+Rendered render_chunks(const RenderJob& job, const Plan& plan, const OnProgress& on_progress,
+                       const std::stop_token& stop) {
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
-  std::atomic<std::int64_t> frames_done = 0;
+  const std::int64_t kept = sink->kept_frames();
+  const std::int64_t first = std::max(range.begin, plan.chunks.ended_by(kept));
+  std::atomic<std::int64_t> frames_done = kept;
   const auto make_worker = [&] {
     const auto worker = std::make_shared<Worker>(plan, job.profile, frames_done);
-    return [worker, &range](std::int64_t task, const std::stop_token& halt) {
-      return worker->work(range.begin + task, halt);
+    return [=](std::int64_t task, const std::stop_token& halt) {
+      return worker->work(first + task, kept, halt);
     };
   };
 
   Rendered rendered{plan.output.has_frames
                         ? plan.chunks.begin(range.end) - plan.chunks.begin(range.begin)
-                        : plan.film.frame_count(),
+                        : plan.frames.count(),
                     {}};
   std::int64_t reported = -1;
   const auto report = [&] {
@@ -244,7 +265,8 @@ Rendered render_plan(const RenderJob& job, const Plan& plan, const OnProgress& o
     sound = sound_of(plan, on_progress, clock, stop);
     sink->take_sound(*sound.packets);
   }
-  OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker, size_of);
+  OrderedPool<EncodedWork> pool(range.end - first, workers_of(job, plan.film.view()), make_worker,
+                                size_of);
   while (const auto work = pool.take(stop, report)) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
@@ -255,7 +277,6 @@ Rendered render_plan(const RenderJob& job, const Plan& plan, const OnProgress& o
   clock.enter(Step::write);
   sink->finish();
   rendered.aftermath = sink->aftermath();
-  rendered.notes = notes_of(plan);  // by now the collisions of all frames are known
   if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {
     add(rendered.profile.steps, clock.spent());
@@ -264,8 +285,30 @@ Rendered render_plan(const RenderJob& job, const Plan& plan, const OnProgress& o
   return rendered;
 }
 
+}  // namespace
+
+Film film_of(const RenderJob& job, const std::stop_token& stop) {
+  check_shard(job);
+  return Film(job.script,
+              {is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures, stop});
+}
+
+Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
+                     const std::stop_token& stop) {
+  const Plan plan(job, film);
+  if (job.max_flashes && plan.output.has_frames) {
+    check_flashes(plan.film, *job.max_flashes, stop);
+  }
+  Rendered rendered = plan.output.open ? render_chunks(job, plan, on_progress, stop)
+                                       : render_pdf(job, film, plan.frames, on_progress, stop);
+  rendered.notes = notes_of(plan);  // by now the collisions of all frames are known
+  return rendered;
+}
+
+namespace {
+
 /// Leaves out sound, and lowers a frame rate, that the job's output cannot have.
-/// @returns a note about each change.
+/// @returns a note about each change, and about motion blur.
 std::vector<std::string> fit_to_output(RenderJob& job) {
   std::vector<std::string> notes;
   const auto fit = [&](auto& script) {
@@ -282,28 +325,31 @@ std::vector<std::string> fit_to_output(RenderJob& job) {
     }
   };
   std::visit(fit, job.script);
+  const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };
+  const bool is_vector = has_ending(job.output, ".svg") || has_ending(job.output, ".pdf");
+  if (is_vector && std::ranges::any_of(scenes_of(job.script), is_blurred)) {
+    notes.push_back(fmt::format("'{}' has no motion blur: moving bodies are sharp", job.output));
+  }
   return notes;
 }
 
 Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
+  if (job.frames && (job.shard || job.bundle || is_page(job.output))) {
+    throw UsageError("frames: parts, pages and bundles are of the whole film; leave frames out");
+  }
+  if (job.resume && (job.shard || !has_numbers(job.output))) {
+    throw UsageError(
+        fmt::format("resume: only pictures of a sequence are kept; render '{}' in parts, --part "
+                    "I/N, each of which is kept once it is done",
+                    job.output));
+  }
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);
   return render_film(job, film_of(job, stop), on_progress, stop);
 }
 
 }  // namespace
-
-Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
-                     const std::stop_token& stop) {
-  return render_plan(job, Plan(job, film, film.frames(), nullptr), on_progress, stop);
-}
-
-Rendered render_shot(const RenderJob& job, const Film& film, const FrameRange& frames,
-                     SampleSource* sound, const OnProgress& on_progress,
-                     const std::stop_token& stop) {
-  return render_plan(job, Plan(job, film, frames, sound), on_progress, stop);
-}
 
 Rendered render(const RenderJob& job, const OnProgress& on_progress, const std::stop_token& stop) {
   RenderJob fitted = job;

@@ -29,12 +29,10 @@ Film film_of(const RenderJob& job, const std::stop_token& stop);
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
-/// The same of some frames alone, numbered from 0.
-/// @param sound  the film's, of which this rendering takes the next samples; null if the job has
-/// none
-Rendered render_shot(const RenderJob& job, const Film& film, const FrameRange& frames,
-                     SampleSource* sound, const OnProgress& on_progress,
-                     const std::stop_token& stop);
+/// Renders frames of the job's film as the pages of a PDF file.
+/// @throws UsageError if they are too many; as render()
+Rendered render_pdf(const RenderJob& job, const Film& film, const FrameRange& frames,
+                    const OnProgress& on_progress, const std::stop_token& stop);
 
 /// What the bytes of a rendering depend on: the header of all its shards, without their number.
 ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count);

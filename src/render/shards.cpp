@@ -238,7 +238,7 @@ JobDescription read_description(const ShardFile& part) {
   job.signature = value_of(part, "output");
   job.frame_count = number(part, "frames", kMaxFrames);
   if (value_of(part, "sound.on") == "true") {
-    job.sound = sound_format(job.frame_count, job.format.frame_rate);
+    job.sound = sound_format({0, job.frame_count - 1}, job.format.frame_rate);
   }
   return job;
 }
@@ -282,7 +282,7 @@ Rendered join(const std::vector<std::string>& parts, const std::string& output,
   const Output joined = set_up_output(output, job.format, job.encoder, job.sound, overwrite);
   check_output(in_order, output, joined, job);
 
-  const auto sink = joined.open(job.frame_count);
+  const auto sink = joined.open({job.frame_count});
   std::optional<ShardSound> sound;
   if (job.sound) sink->take_sound(sound.emplace(in_order.front().path));
   std::int64_t frames = 0;

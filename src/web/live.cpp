@@ -155,7 +155,7 @@ LiveSound::LiveSound(const Script& script) : film_(script, {FilmUse::audio_only}
 LiveSound::~LiveSound() = default;
 
 std::int64_t LiveSound::size() const {
-  return sound_format(film_.frame_count(), film_.view().frame_rate).size;
+  return sound_format(film_.frames(), film_.view().frame_rate).size;
 }
 
 /// The next pairs, at most a tenth of a second of them.
@@ -170,7 +170,8 @@ std::vector<float> LiveSound::read_up_to(std::int64_t end) {
 
 void LiveSound::read(std::int64_t first, std::int64_t count) {
   if (!sound_ || first < next_) {
-    sound_ = std::make_unique<FilmSound>(film_, std::stop_token(), [](std::int64_t) {});
+    sound_ =
+        std::make_unique<FilmSound>(film_, film_.frames(), std::stop_token(), [](std::int64_t) {});
     next_ = 0;
   }
   samples_.clear();

@@ -49,8 +49,9 @@ TEST_F(NamesTest, CapitalsMakeNoOtherKindOfFile) {
 }
 
 TEST_F(NamesTest, AnUnknownKindIsAnsweredByAllKinds) {
-  for (const char* kind : {"*.mp4", "*.mov", "*.webm", "*.gif", "*.apng", "*.webp", "*.png",
-                           "*.y4m", "- (", "*.framehash", "null", "*.wav", "*.html"}) {
+  for (const char* kind :
+       {"*.mp4", "*.mov", "*.webm", "*.gif", "*.apng", "*.webp", "*.png", "*.svg", "*.pdf", "*.y4m",
+        "- (", "*.framehash", "null", "*.wav", "*.html"}) {
     expect_refusal({"render", "-o", "a.xyz"}, kind);
   }
   for (const char* kind : {".png", ".svg", ".pdf", "- for PNG"}) {

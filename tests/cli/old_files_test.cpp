@@ -97,6 +97,10 @@ TEST_F(OldFilesTest, AfterAPartOfALongerSequenceStay) {
   EXPECT_TRUE(is_png("0.png"));
   EXPECT_TRUE(is_png("5.png")) << "what follows stays here too";
   expect_refusal(kSmall + Arguments{"-o", "a.mp4", "--start-number", "3"}, "has no numbers");
+  const CommandResult range = piblocks({"render", "--size", "64x36", "--fps", "10", "--to", "0.5",
+                                        "--frames", "1-3", "-o", "%d.png"});
+  EXPECT_TRUE(range.err.starts_with("%d.png: 3 frames in ")) << range.err;
+  EXPECT_TRUE(range.err.ends_with("; 2.png to 4.png\n")) << range.err;
 }
 
 /// Under names that an output makes; a name that is given whole is the user's to replace.

@@ -1,6 +1,8 @@
 // render: every kind of output, and that it depends on nothing but the scene.
 #include <fmt/format.h>
 
+#include <thread>
+
 #include "cli/cli_fixture.hpp"
 
 namespace piblocks {
@@ -164,6 +166,17 @@ TEST_F(RenderTest, EncoderOptionsReachTheEncoder) {
   EXPECT_NE(contents("builtin.mp4"), contents("fast.mp4"));
   output_of(two + Arguments{"--smallest", "-o", "smallest.mp4"});
   EXPECT_TRUE(contains(contents("smallest.mp4"), "x264 - core"));
+}
+
+TEST_F(RenderTest, ManyJobsTakeNoMoreMemoryThanIsWorthIt) {
+  if (!testing_support::kTellsMemory) GTEST_SKIP() << "a sanitizer has memory of its own";
+  if (std::thread::hardware_concurrency() > 8) GTEST_SKIP() << "each processor has its worker";
+  // A canvas of 38 MB, and planes of 14 MB, for each of 64 workers would be 3.3 GB.
+  const CommandResult result =
+      piblocks({"render", "--size", "4096x2304", "--to", "1", "--jobs", "64", "-o", "-"},
+               {.out_file = "/dev/null"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_LT(result.max_memory_KiB, 800 * 1024);
 }
 
 TEST_F(RenderTest, SaysWhatItWroteUnlessQuiet) {

@@ -184,5 +184,23 @@ TEST(VectorFiles, AreCompleteAndRepeatable) {
   EXPECT_EQ(pdf, as_text(draw_pdf(list)));
 }
 
+TEST(VectorFiles, HaveAPageForEachPictureAndFontsOnce) {
+  const auto number = [](int count) {
+    return DrawList{
+        40, 30, kWhite, {TextItem{ItemId::count, {2, 20}, std::to_string(count), 9, kGreen}}};
+  };
+  const auto film = [&](int pictures) {
+    PdfPages pages(40, 30);
+    std::string pdf;
+    for (int i = 0; i < pictures; ++i) pdf += as_text(pages.add(number(1000 + i)));
+    return pdf + as_text(pages.finish());
+  };
+  EXPECT_EQ(film(1), as_text(draw_pdf(number(1000))));
+  const std::string pdf = film(50);
+  EXPECT_EQ(pdf, film(50));
+  EXPECT_NE(pdf.find("/Count 50\n"), std::string::npos);
+  EXPECT_LT(pdf.size(), 50 * 1000U + film(1).size()) << "each page has its own fonts";
+}
+
 }  // namespace
 }  // namespace piblocks

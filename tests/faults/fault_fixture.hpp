@@ -50,6 +50,8 @@ inline std::vector<OutputKind> every_kind() {
           {"Wav", small_render({"-o", "a.wav"})},
           {"Page", small_render({"-o", "a.html"})},
           {"Png", small_render({"-o", "%06d.png"})},
+          {"Svg", small_render({"-o", "%06d.svg"})},
+          {"Pdf", small_render({"-o", "a.pdf"})},
           {"Y4m", small_render({"-o", "a.y4m"})},
           {"Framehash", small_render({"-o", "a.framehash"})},
           {"Part", small_render({"--part", "1/2", "-o", "a.mp4"})},

@@ -102,6 +102,121 @@ TEST_P(KilledTest, AtRandomMomentsLeavesNoHalfFile) {
 }
 INSTANTIATE_TEST_SUITE_P(Every, KilledTest, testing::ValuesIn(every_kind()), name_of);
 
+/// A sequence whose runs are killed until one of them ends.
+class ResumedTest : public FaultFixture {
+ protected:
+  static Arguments resume(const Arguments& more = {}) {
+    return Arguments{"render", "--size", "160x90", "--fps", "12",       "--to",
+                     "120",    "--jobs", "2",      "-o",    "f/%d.png", "--resume"} +
+           more;
+  }
+  /// The folder of an unfinished run; empty if there is none.
+  fs::path unfinished() const {
+    if (!fs::exists(out() / "f")) return {};
+    for (const auto& entry : fs::directory_iterator(out() / "f")) {
+      if (is_unfinished(entry.path().string())) return entry.path();
+    }
+    return {};
+  }
+  /// What is there when a run is killed: each picture, and when it was written.
+  std::map<std::string, fs::file_time_type> pictures() const {
+    std::map<std::string, fs::file_time_type> found;
+    const fs::path folder = unfinished();
+    if (folder.empty() || !fs::exists(folder / "new")) return found;
+    for (const auto& entry : fs::directory_iterator(folder / "new")) {
+      if (!file_contents(entry.path()).ends_with("IEND\xae\x42\x60\x82")) continue;
+      found[entry.path().filename()] = entry.last_write_time();
+    }
+    return found;
+  }
+  void kill_after_pictures(std::size_t count, int signal, const Arguments& arguments) const {
+    RunningCommand command(arguments, {.folder = out()});
+    ASSERT_TRUE(wait_until([&] {
+      std::error_code none;
+      return std::distance(fs::directory_iterator(unfinished() / "new", none), {}) >=
+             std::ptrdiff_t(count);
+    }));
+    command.send(signal);
+    command.wait();
+  }
+};
+
+TEST_F(ResumedTest, AtRandomMomentsEndsAsIfNothingHadBeen) {
+  TracedRandom random(20261128);
+  EXPECT_EQ(run(resume()).exit_code, 0);
+  const Files complete = files();
+  ASSERT_EQ(complete.size(), 1441U) << "frames in a folder";
+  for (int round = 0; round < 5; ++round) {
+    clear();
+    std::size_t before = 0;
+    for (int kill = 0; kill < 3; ++kill) {
+      const int signal = std::array{SIGINT, SIGTERM, SIGKILL}[std::size_t(random.integer(0, 2))];
+      kill_after_pictures(before + std::size_t(random.integer(0, 99)), signal, resume());
+      const auto kept = pictures();
+      EXPECT_GE(kept.size(), before);
+      before = kept.size();
+    }
+    const auto kept = pictures();
+    const CommandResult result = run(resume());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(files() == complete);
+    EXPECT_EQ(contains(result.err, fmt::format("; kept {} picture", kept.size())), !kept.empty())
+        << result.err;
+    for (const auto& [name, time] : kept) {
+      EXPECT_EQ(fs::last_write_time(out() / "f" / name), time) << name << " was written again";
+    }
+  }
+}
+
+TEST_F(ResumedTest, OnlyByTheSameRun) {
+  kill_after_pictures(20, SIGKILL, resume());
+  const auto kept = pictures();
+  ASSERT_GE(kept.size(), 20U);
+  Arguments larger = resume();
+  std::ranges::replace(larger, "160x90", "160x92");
+  const std::vector<std::pair<Arguments, std::string>> others = {
+      {resume({"--digits", "2"}), "red.mass;"},
+      {resume({"--theme", "dark"}), "view."},
+      {resume({"--transparent"}), "view."},
+      {resume({"--start-number", "2"}), "start-number;"},
+      {resume({"--frames", "0-1439"}), "first-frame;"},
+      {larger, "view.size;"}};
+  for (const auto& [arguments, name] : others) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(contains(result.err, "'f/%d.png' are of another run: they differ in " + name))
+        << result.err;
+    EXPECT_TRUE(pictures() == kept);
+  }
+  std::string job = file_contents(unfinished() / "job");
+  ASSERT_TRUE(job.starts_with("piblocks: "));
+  std::ofstream(unfinished() / "job") << job.replace(10, 1, "9");
+  EXPECT_TRUE(contains(run(resume()).err, "they differ in piblocks;"));
+  Arguments anew = resume();
+  anew.pop_back();
+  EXPECT_FALSE(contains(run(anew).err, "kept"));
+  EXPECT_TRUE(unfinished().empty());
+}
+
+/// Who has not thought of it before may still resume what was killed.
+TEST_F(ResumedTest, ARunThatWasNotMeantTo) {
+  Arguments plain = resume();
+  plain.pop_back();
+  kill_after_pictures(10, SIGKILL, plain);
+  const auto kept = pictures();
+  EXPECT_TRUE(contains(run(resume()).err, fmt::format("; kept {} pictures", kept.size())));
+  clear();
+  kill_after_pictures(10, SIGINT, plain);
+  EXPECT_TRUE(files().empty()) << "without --resume an interrupted run cleans up";
+}
+
+TEST_F(ResumedTest, IsASequenceOfPictures) {
+  for (const char* film : {"a.mp4", "-", "null", "a.html", "a.wav"}) {
+    EXPECT_TRUE(contains(run(small_render({"-o", film, "--resume"})).err, "--part I/N"));
+  }
+  EXPECT_TRUE(files().empty());
+}
+
 /// The path that a process killed just now would have left.
 fs::path dead_path(const fs::path& name) { return Unfinished(name, Unfinished::Kind::file).path(); }
 
@@ -109,7 +224,8 @@ class AbandonedTest : public EveryKindTest {
  protected:
   /// What the temporary file or folder is called after.
   fs::path name_of(const Files& complete) const {
-    return out() / (is_sequence(complete) ? "%d.png" : complete.begin()->first);
+    const fs::path first = complete.begin()->first;
+    return out() / (is_sequence(complete) ? "%d" + first.extension().string() : first.string());
   }
   static bool is_sequence(const Files& complete) { return complete.size() > 1; }
 };

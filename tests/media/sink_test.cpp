@@ -35,7 +35,7 @@ const VideoFormat kSmall = {.width_px = 64, .height_px = 36, .frame_rate = 10};
 std::string opening_error(const std::string& name, const VideoFormat& format,
                           const EncoderSettings& settings = {}) {
   return testing_support::message_of<UsageError>(
-      [&] { set_up_output(name, format, settings).open(1000); });
+      [&] { set_up_output(name, format, settings).open({1000}); });
 }
 
 TEST(SetUpOutput, ListsTheKindsWhenANameHasNone) {
@@ -154,7 +154,7 @@ TEST_P(EveryFile, LeavesNoTraceWhenAbandoned) {
   const TemporaryFolder folder;
   {
     const auto output = set_up_output(folder / GetParam(), kSmall, {});
-    const auto sink = output.open(1000);
+    const auto sink = output.open({1000});
     sink->append(encode_chunk(output, 0, 1000, article_frames(kSmall)));
     EXPECT_FALSE(folder.is_empty());
   }
@@ -188,7 +188,7 @@ TEST_P(EveryFile, RefusesAFrameOfAnotherSize) {
 TEST_P(EveryFile, RefusesAChunkOutOfOrder) {
   const TemporaryFolder folder;
   const auto output = set_up_output(folder / GetParam(), kSmall, {});
-  const auto sink = output.open(1000);
+  const auto sink = output.open({1000});
   const EncodedChunk second =
       encode_chunk(output, output.frames_per_chunk, 1000, article_frames(kSmall));
   EXPECT_THROW(sink->append(second), MediaError);
@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFile,
 
 TEST(NullSink, KeepsNothing) {
   const auto output = set_up_output("null", kSmall, {});
-  const auto sink = output.open(1000);
+  const auto sink = output.open({1000});
   EXPECT_TRUE(encode_chunk(output, 0, 100, article_frames(kSmall)).empty());
   sink->finish();
 }
@@ -254,7 +254,7 @@ TEST(PngSequence, ReplacesFilesOnlyWhenItIsComplete) {
   write_frames(folder / "%d.png", kSmall, {}, 1, random_frames(kSmall));
   const std::string old = file_contents(folder / "1.png");
   const auto output = set_up_output(folder / "%d.png", kSmall, {});
-  const auto sink = output.open(1000);
+  const auto sink = output.open({1000});
   sink->append(encode_chunk(output, 0, 3, article_frames(kSmall)));
   EXPECT_EQ(file_contents(folder / "1.png"), old);
   EXPECT_FALSE(fs::exists(folder / "2.png"));
@@ -281,7 +281,7 @@ TEST(PngSequence, HarmsNoFileOfOthersUnlessTold) {
     const TemporaryFolder folder;
     const auto render = [&](std::int64_t frames, bool overwrite) {
       const auto output = set_up_output(folder / "%d.png", kSmall, {}, {}, overwrite);
-      const auto sink = output.open(frames);
+      const auto sink = output.open({frames});
       sink->append(encode_chunk(output, 0, frames, article_frames(kSmall)));
       sink->finish();
       return sink->aftermath();
@@ -304,7 +304,7 @@ TEST(PngSequence, HarmsNoFileOfOthersUnlessTold) {
 TEST(PngSequence, HarmsNoFileThatCameMeanwhile) {
   const TemporaryFolder folder;
   const auto output = set_up_output(folder / "%d.png", kSmall, {});
-  const auto sink = output.open(1000);
+  const auto sink = output.open({1000});
   sink->append(encode_chunk(output, 0, 3, article_frames(kSmall)));
   std::ofstream(folder / "2.png") << "mine";
   EXPECT_THROW(sink->finish(), UsageError);

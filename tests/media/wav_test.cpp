@@ -37,7 +37,7 @@ int sample(const std::string& bytes, std::size_t index) {
 
 void write(const std::string& path, std::vector<float> values, std::int64_t size) {
   const auto output = set_up_output(path, {}, {}, SoundFormat{.rate_hz = 48000, .size = size});
-  const auto sink = output.open(0);
+  const auto sink = output.open({0});
   Samples samples(std::move(values));
   const auto packets = output.encode_sound(samples);
   sink->take_sound(*packets);
@@ -88,7 +88,7 @@ TEST(Sound, IsNotTakenByAnOutputThatWasSetUpWithout) {
   Samples samples({0, 0});
   EXPECT_THROW(output.encode_sound(samples), MediaError);
   const auto packets = set_up_output("a.wav", {}, {}).encode_sound(samples);
-  EXPECT_THROW(output.open(1)->take_sound(*packets), MediaError);
+  EXPECT_THROW(output.open({1})->take_sound(*packets), MediaError);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ inline void write_frames(const std::string& name, const VideoFormat& format,
                          const PaintFrame& paint) {
   const auto output = set_up_output(name, format, settings);
   const auto encoder = output.make_encoder();
-  const auto sink = output.open(frames);
+  const auto sink = output.open({frames});
   for (std::int64_t first = 0; first < frames; first += output.frames_per_chunk) {
     sink->append(encode_chunk(output, *encoder, first, frames, paint));
   }
@@ -67,7 +67,7 @@ inline void write_frames_by_threads(const std::string& name, const VideoFormat& 
                                     const EncoderSettings& settings, std::int64_t frames,
                                     const PaintFrame& paint) {
   const auto output = set_up_output(name, format, settings);
-  const auto sink = output.open(frames);
+  const auto sink = output.open({frames});
   const std::int64_t length = output.frames_per_chunk;
   std::vector<EncodedChunk> chunks(static_cast<std::size_t>((frames + length - 1) / length));
   std::vector<std::jthread> threads;

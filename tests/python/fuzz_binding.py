@@ -165,8 +165,8 @@ class Fuzzer:
                         at=self.likely(None))
         else:
             options = {option: self.value() for option in r.sample(
-                ["crf", "preset", "encoder", "start_number", "plays", "smallest", "captions", "part", "bundle", "poster", "max_flashes",
-                 "profile", "jobs"], r.choice([0, 0, 1, 2]))}
+                ["crf", "preset", "encoder", "start_number", "plays", "smallest", "captions", "frames", "part", "bundle", "poster",
+                 "max_flashes", "profile", "resume", "jobs"], r.choice([0, 0, 1, 2]))}
             scene.render(name, progress=self.likely(None, progress), for_=self.likely(None, "web"),
                          **options)._repr_html_()
 

@@ -35,7 +35,7 @@ Script read(const std::string& text) {
 
 Track track(const std::string& text) {
   const Film film(read(text));
-  FilmSound sound(film, {}, [](std::int64_t) {});
+  FilmSound sound(film, film.frames(), {}, [](std::int64_t) {});
   Track track;
   std::vector<float> samples(2000);
   while (const std::size_t count = sound.read(samples)) {
@@ -44,8 +44,7 @@ Track track(const std::string& text) {
       track.right.push_back(double(samples[2 * i + 1]));
     }
   }
-  EXPECT_EQ(std::int64_t(track.size()),
-            sound_format(film.frame_count(), film.view().frame_rate).size);
+  EXPECT_EQ(std::int64_t(track.size()), sound_format(film.frames(), film.view().frame_rate).size);
   return track;
 }
 

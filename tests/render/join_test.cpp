@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "draw/composed_pictures.hpp"
 #include "rendered_parts.hpp"
@@ -42,15 +41,6 @@ class JoinTest : public testing::Test {
 
   TemporaryFolder folder_;
 };
-
-/// Names and contents of the files in a folder.
-std::map<std::string, std::string> files_in(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    files[entry.path().filename()] = file_contents(entry.path());
-  }
-  return files;
-}
 
 TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
   for (const std::string name :

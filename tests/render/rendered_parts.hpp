@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <piblocks/render.hpp>
 
+#include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,15 @@ inline std::vector<std::string> rendered_parts(int count, const RenderJob& job) 
   std::vector<std::string> parts;
   for (int i = 1; i <= count; ++i) parts.push_back(rendered_part({i, count}, job));
   return parts;
+}
+
+/// Names and contents of the files in a folder.
+inline std::map<std::string, std::string> files_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    files[entry.path().filename()] = testing_support::file_contents(entry.path());
+  }
+  return files;
 }
 
 /// Expects the same file from one thread, from two, and joined from three parts.

@@ -221,12 +221,13 @@ Output gif_output(const OutputRequest& request) {
   const std::string problem = gif_rate_problem(rate);
   if (!problem.empty()) throw UsageError(problem);
   const std::int64_t longest = Integer(floor(kMaxDelay_cs * rate / 100)).get_si();
-  return {.frames_per_chunk = kFramesPerChunk,
-          .signature = fmt::format("gif, plays {}", request.settings.plays.value_or(0)),
-          .make_encoder = [format = request.format,
-                           longest] { return std::make_unique<GifEncoder>(format, longest); },
-          .open = [request](std::int64_t /*frames*/) { return std::make_unique<GifSink>(request); },
-          .needs_frame_before = true};
+  return {
+      .frames_per_chunk = kFramesPerChunk,
+      .signature = fmt::format("gif, plays {}", request.settings.plays.value_or(0)),
+      .make_encoder = [format = request.format,
+                       longest] { return std::make_unique<GifEncoder>(format, longest); },
+      .open = [request](const Opening& /*opening*/) { return std::make_unique<GifSink>(request); },
+      .needs_frame_before = true};
 }
 
 }  // namespace piblocks

@@ -46,7 +46,7 @@ template <typename Parts>
 Output with_file(Output output, const OutputRequest& request, const Container& container,
                  const std::shared_ptr<const Parts>& parts, const VideoStream& stream) {
   output.signature = fmt::format("{} by {}", container.muxer, output.signature);
-  output.open = [name = request.name, &container, parts, &stream](std::int64_t /*frames*/) {
+  output.open = [name = request.name, &container, parts, &stream](const Opening& /*opening*/) {
     return open_video_file(name, container, stream, parts->sound ? &*parts->sound : nullptr);
   };
   if (parts->sound) {

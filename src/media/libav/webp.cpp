@@ -173,7 +173,7 @@ Output webp_output(const OutputRequest& request) {
       .signature = fmt::format("webp by libavcodec {}, plays {}", version_text(avcodec_version()),
                                request.settings.plays.value_or(0)),
       .make_encoder = [format, longest] { return std::make_unique<WebpEncoder>(format, longest); },
-      .open = [request](std::int64_t /*frames*/) { return std::make_unique<WebpSink>(request); },
+      .open = [request](const Opening& /*opening*/) { return std::make_unique<WebpSink>(request); },
       .needs_frame_before = true};
 }
 

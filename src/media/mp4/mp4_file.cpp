@@ -128,8 +128,8 @@ Output mp4_output(const OutputRequest& request) {
       .frames_per_chunk = parts->pictures.frames_per_chunk,
       .signature = parts->signature(),
       .make_encoder = [parts] { return h264_chunk_encoder(parts->pictures, load_successor); },
-      .open = [name = request.name, parts](std::int64_t frames) -> std::unique_ptr<FrameSink> {
-        return std::make_unique<Mp4File>(name, parts, frames);
+      .open = [name = request.name, parts](const Opening& opening) -> std::unique_ptr<FrameSink> {
+        return std::make_unique<Mp4File>(name, parts, opening.frames);
       },
       .notes = h264_notes(request.format)};
   if (parts->sound) {

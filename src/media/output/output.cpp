@@ -52,6 +52,8 @@ constexpr std::array kOutputKinds = {
     OutputKind{".webp", by_module<&AvModule::webp_output>, kPictures | kAlpha | kPlays},
     OutputKind{".png", png_output, kPictures | kAlpha | kNumbers,
                " with a number field such as %06d"},
+    OutputKind{".svg", svg_output, kPictures | kAlpha | kNumbers, " likewise"},
+    OutputKind{".pdf", pdf_output, kPictures | kAlpha, " (a page for each frame)"},
     OutputKind{".y4m", y4m_output, kPictures},
     OutputKind{"-", y4m_output, kPictures, " (y4m on standard output)"},
     OutputKind{".framehash", by_module<&AvModule::framehash_output>, kPictures | kAlpha},
@@ -181,6 +183,11 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 
 bool is_sound_alone(const std::string& name) { return has_ending(name, ".wav"); }
 
+bool has_numbers(const std::string& name) {
+  const OutputKind* const kind = find_kind(name);
+  return kind != nullptr && kind->has(kNumbers);
+}
+
 bool takes_sound(const std::string& name) {
   const OutputKind* const kind = find_kind(name);
   return kind == nullptr || kind->has(kSound);
@@ -200,7 +207,7 @@ std::optional<int> max_frame_rate_of(const std::string& name) {
 void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name) {
   if (name == "null") return;
   if (name == "-") return check.writes_standard_output();
-  if (has_ending(name, ".png")) {
+  if (has_numbers(name)) {
     try {
       const FramePattern pattern(name);
       return check.writes_some_of(what, name, pattern.folder(), names_of_pattern(name));

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "core/file_set.hpp"
 #include "media/output/bytes.hpp"
 
 namespace piblocks {
@@ -119,6 +120,9 @@ class FrameSink {
   /// Completes the output and gives it its final name.
   /// @throws IoError, MediaError if that fails; the output is then removed.
   virtual void finish() = 0;
+  /// So many frames, from the first on, have been left by an earlier run: append() begins behind
+  /// them.
+  virtual std::int64_t kept_frames() const { return 0; }
   /// What finish() did to the files of an earlier output, such as "removed 12 pictures of an
   /// earlier run"; empty if it did nothing.
   virtual std::string aftermath() const { return {}; }
@@ -127,16 +131,25 @@ class FrameSink {
 /// Checks that an output gets every frame once and in order.
 class FrameCounter {
  public:
+  /// @param frames  those that it has already.
+  explicit FrameCounter(std::int64_t frames = 0) : frames_(frames) {}
   /// @throws MediaError if the chunk does not start where the last one ended.
   void take(const EncodedChunk& chunk);
   std::int64_t frames() const noexcept { return frames_; }
 
  private:
-  std::int64_t frames_ = 0;
+  std::int64_t frames_;
 };
 
 /// Output::encode_sound of outputs without sound: throws MediaError.
 [[noreturn]] std::unique_ptr<PacketSource> reject_sound(SampleSource& samples);
+
+/// What a sink is opened for.
+struct Opening {
+  std::int64_t frames = 0;  ///< at most so many
+  /// Of numbered pictures: whether they go on with those of an earlier run.
+  Resumption resumption = {};
+};
 
 /// How frames become packets, and where the packets go.
 struct Output {
@@ -145,10 +158,10 @@ struct Output {
   /// format, settings and signature can be mixed.
   std::string signature;
   /// Makes an encoder for one worker; it must not outlive the output. Thread-safe.
-  std::function<std::unique_ptr<ChunkEncoder>()> make_encoder;
-  /// A sink for at most so many frames; it must not outlive the output.
+  std::function<std::unique_ptr<ChunkEncoder>()> make_encoder = {};
+  /// A sink; it must not outlive the output.
   /// @throws UsageError if it cannot be opened; nothing is left behind then.
-  std::function<std::unique_ptr<FrameSink>(std::int64_t frames)> open;
+  std::function<std::unique_ptr<FrameSink>(const Opening&)> open = {};
   /// The packets that this output makes of a soundtrack; both must outlive them.
   /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
   std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode_sound = reject_sound;
@@ -156,6 +169,9 @@ struct Output {
   /// Whether an encoder has to take() the frame before a chunk's first one, if there is one, ahead
   /// of begin().
   bool needs_frame_before = false;
+  /// Frames go in as they are drawn. There is no encoder: packets are SVG files. Without `open`,
+  /// frames are pages of a PDF file.
+  bool is_vector = false;
   std::vector<std::string> notes = {};  ///< as Rendered's
 };
 
@@ -171,6 +187,9 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 
 /// Whether an output of this name is sound without pictures: `*.wav`.
 bool is_sound_alone(const std::string& name);
+
+/// Whether an output of this name is numbered pictures.
+bool has_numbers(const std::string& name);
 
 /// Whether an output of this name can have sound.
 bool takes_sound(const std::string& name);

@@ -10,7 +10,9 @@
 #include <string_view>
 
 #include "h264/mp4_writer.hpp"
+#include "media/output/picture_sequence.hpp"
 #include "media/pixels/yuv.hpp"
+#include "media/png/png_mark.hpp"
 
 namespace piblocks {
 namespace {
@@ -210,7 +212,37 @@ Output null_output(const OutputRequest& request) {
       .frames_per_chunk = 64,
       .signature = "null",
       .make_encoder = [format = request.format] { return std::make_unique<NullEncoder>(format); },
-      .open = [](std::int64_t /*frames*/) { return std::make_unique<NullSink>(); }};
+      .open = [](const Opening& /*opening*/) { return std::make_unique<NullSink>(); }};
+}
+
+Output svg_output(const OutputRequest& request) {
+  static constexpr std::string_view kHead = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  static const auto marked_head = [] {
+    Bytes bytes(kHead.begin(), kHead.end());
+    append(bytes, "<!-- Software: piblocks render -->\n");
+    return bytes;
+  }();
+  const PictureKind kind = {
+      [](ByteSpan svg) {
+        Bytes marked = marked_head;
+        append(marked, svg.subspan(kHead.size()));
+        return marked;
+      },
+      [](const std::filesystem::path& path) { return has_bytes(path, 0, marked_head); },
+      "</svg>\n"};
+  return {.frames_per_chunk = 16,
+          .signature = "svg",
+          .open = sequence_of(request, kind),
+          .is_vector = true};
+}
+
+Output pdf_output(const OutputRequest& request) {
+  if (request.name.find('%') != std::string::npos) {
+    throw UsageError(fmt::format(
+        "output: '{}': a PDF has all frames as its pages; leave '%' out, or write numbered *.svg",
+        request.name));
+  }
+  return {.signature = "pdf", .is_vector = true};
 }
 
 Output y4m_output(const OutputRequest& request) {
@@ -232,14 +264,15 @@ Output wav_output(const OutputRequest& request) {
         "output: '{}' cannot be that long: WAV ends at 4 GiB, which is {} s; write *.mp4 --sound",
         request.name, (kMaxFile_bytes - kHeader_bytes) / kPair_bytes / sound.rate_hz));
   }
-  return {.signature = "wav",
-          .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
-            throw MediaError("output: cannot encode frames as sound");
-          },
-          .open = [name = request.name, sound](
-                      std::int64_t /*frames*/) { return std::make_unique<WavSink>(name, sound); },
-          .encode_sound = [](SampleSource& samples) { return pcm_packets(samples); },
-          .has_frames = false};
+  return {
+      .signature = "wav",
+      .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
+        throw MediaError("output: cannot encode frames as sound");
+      },
+      .open = [name = request.name, sound](
+                  const Opening& /*opening*/) { return std::make_unique<WavSink>(name, sound); },
+      .encode_sound = [](SampleSource& samples) { return pcm_packets(samples); },
+      .has_frames = false};
 }
 
 }  // namespace piblocks

@@ -101,7 +101,7 @@ Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk
           .signature = signature,
           .make_encoder = [format = request.format] { return std::make_unique<Encoder>(format); },
           .open = [name = request.name](
-                      std::int64_t /*frames*/) { return std::make_unique<StreamSink>(name); }};
+                      const Opening& /*opening*/) { return std::make_unique<StreamSink>(name); }};
 }
 
 // All throw UsageError if the kind cannot hold the format or does not take a setting.
@@ -113,6 +113,8 @@ Output gif_output(const OutputRequest& request);
 Output apng_output(const OutputRequest& request);
 Output webp_output(const OutputRequest& request);
 Output png_output(const OutputRequest& request);
+Output svg_output(const OutputRequest& request);
+Output pdf_output(const OutputRequest& request);
 Output y4m_output(const OutputRequest& request);
 /// A comment (X…) in the header of our y4m files: y4m has no tag for the matrix. Other programs
 /// skip it.

@@ -48,8 +48,7 @@ class ShardSink final : public FrameSink {
  public:
   ShardSink(const std::string& path, const ShardHeader& header) : file_(path) {
     file_.write(fmt::format("{}\n", kMagic));
-    for (const auto& [name, value] : header) file_.write(fmt::format("{}: {}\n", name, value));
-    file_.write("\n");
+    file_.write(text_of(header) + "\n");
   }
 
   void take_sound(PacketSource& sound) override {
@@ -90,6 +89,12 @@ bool is_another_file(const std::string& path) {
 }
 
 }  // namespace
+
+std::string text_of(const ShardHeader& header) {
+  std::string text;
+  for (const auto& [name, value] : header) text += fmt::format("{}: {}\n", name, value);
+  return text;
+}
 
 std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header,
                                       bool overwrite) {

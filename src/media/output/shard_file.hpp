@@ -21,6 +21,9 @@ namespace piblocks {
 /// Names and values, in order. Neither has a line break, and a name has no colon.
 using ShardHeader = std::vector<std::pair<std::string, std::string>>;
 
+/// The lines "NAME: VALUE".
+std::string text_of(const ShardHeader& header);
+
 /// A sink that stores chunks as they are.
 /// @param overwrite  whether it may replace a file that is no part file.
 /// @throws UsageError if the file cannot be opened, would replace another kind of file, or has a

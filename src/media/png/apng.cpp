@@ -125,7 +125,7 @@ Output apng_output(const OutputRequest& request) {
       .signature = fmt::format("apng by zlib {}, plays {}", zlibVersion(),
                                request.settings.plays.value_or(0)),
       .make_encoder = [format, longest] { return std::make_unique<ApngEncoder>(format, longest); },
-      .open = [request](std::int64_t /*frames*/) { return std::make_unique<ApngSink>(request); },
+      .open = [request](const Opening& /*opening*/) { return std::make_unique<ApngSink>(request); },
       .needs_frame_before = true};
 }
 

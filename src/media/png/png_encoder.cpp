@@ -1,4 +1,4 @@
-// PNG pictures, alone and in sequences.
+// PNG pictures.
 #include <fmt/format.h>
 #include <piblocks/encode.hpp>
 
@@ -7,18 +7,14 @@
 #include <filesystem>
 #include <future>
 #include <span>
-#include <system_error>
 
-#include "core/file_set.hpp"
-#include "core/text.hpp"
-#include "media/output/frame_pattern.hpp"
 #include "media/output/output_kinds.hpp"
+#include "media/output/picture_sequence.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
 #include "media/png/png_mark.hpp"
 
 namespace piblocks {
-namespace fs = std::filesystem;
 namespace {
 
 /// Compresses of each image only what differs from the one before. A file is cut into strips of
@@ -141,92 +137,6 @@ class PngEncoder final : public PacketPerFrameEncoder {
   std::vector<Strip> strips_;
 };
 
-/// Numbered pictures in a folder that may hold others. It replaces and removes those of an earlier
-/// sequence. It replaces other files only if it is told to, and never removes them.
-class PngSequence final : public FrameSink {
- public:
-  /// @param start_number  of the first picture; nothing for 1, as FFmpeg's image2 muxer has it.
-  PngSequence(FramePattern pattern, std::int64_t frames, bool overwrite,
-              std::optional<int> start_number)
-      : pattern_(std::move(pattern)),
-        overwrite_(overwrite),
-        first_(start_number.value_or(1)),
-        leaves_later_(start_number.has_value()),
-        files_(pattern_.folder(), pattern_.label()) {
-    check_names(frames);
-  }
-
-  void append(const EncodedChunk& chunk) override {
-    std::int64_t number = next_number();
-    counter_.take(chunk);
-    for (const Packet& packet : chunk) {
-      files_.add(pattern_.name(number++), with_png_mark(packet.bytes, PngMark::sequence));
-    }
-  }
-  void finish() override {
-    check_names(counter_.frames());  // files may have come meanwhile
-    // Pictures of an earlier, longer sequence would look like the end of this one.
-    for (auto number = next_number(); !leaves_later_ && is_file(path_of(number)); ++number) {
-      if (!has_png_mark(path_of(number), PngMark::sequence)) {
-        ++left_;
-        continue;
-      }
-      files_.remove(pattern_.name(number));
-      ++removed_;
-    }
-    files_.commit();
-  }
-  std::string aftermath() const override {
-    std::vector<std::string> done;
-    if (foreign_ > 0) done.push_back("replaced " + counted(foreign_, "other file"));
-    if (removed_ > 0) {
-      done.push_back("removed " + counted(removed_, "picture") + " of an earlier run");
-    }
-    if (left_ > 0) {
-      done.push_back("left " + counted(left_, "other file") +
-                     (left_ == 1 ? " that follows" : " that follow"));
-    }
-    return fmt::format("{}", fmt::join(done, ", "));
-  }
-
- private:
-  std::int64_t next_number() const { return first_ + counter_.frames(); }
-  fs::path path_of(std::int64_t number) const {
-    return fs::path(pattern_.folder()) / pattern_.name(number);
-  }
-  /// FileSet rejects anything else of this name.
-  static bool is_file(const fs::path& path) {
-    std::error_code unknown;
-    return fs::is_regular_file(fs::symlink_status(path, unknown));
-  }
-
-  /// @throws UsageError if so many pictures would replace other files, unless it is told to.
-  void check_names(std::int64_t frames) {
-    foreign_ = 0;
-    fs::path first;
-    for (std::int64_t number = first_; number < first_ + frames; ++number) {
-      const fs::path path = path_of(number);
-      if (!is_file(path) || has_png_mark(path, PngMark::sequence)) continue;
-      if (foreign_++ == 0) first = path;
-    }
-    if (foreign_ == 0 || overwrite_) return;
-    throw UsageError(fmt::format(
-        "output: '{}'{} there, but not from an earlier run; use another name, or --overwrite to "
-        "replace what is there",
-        first.string(), foreign_ == 1 ? " is" : fmt::format(" and {} more are", foreign_ - 1)));
-  }
-
-  FramePattern pattern_;
-  bool overwrite_;
-  std::int64_t first_;
-  bool leaves_later_;  // pictures, of a longer sequence
-  FileSet files_;
-  FrameCounter counter_;
-  std::int64_t foreign_ = 0;  // files that are replaced and were no pictures of a sequence
-  std::int64_t removed_ = 0;  // pictures of an earlier sequence
-  std::int64_t left_ = 0;     // other files that have the next numbers
-};
-
 /// A zlib stream (RFC 1950). Two threads compress a half each, which takes nearly all of the time.
 Bytes compressed(ByteSpan rows) {
   const auto compress = [](ByteSpan piece) {
@@ -304,15 +214,15 @@ Bytes encode_png_palette(int width_px, int height_px, std::span<const std::uint3
 }
 
 Output png_output(const OutputRequest& request) {
+  const PictureKind kind = {
+      [](ByteSpan png) { return with_png_mark(png, PngMark::sequence); },
+      [](const std::filesystem::path& path) { return has_png_mark(path, PngMark::sequence); },
+      std::string_view("\0\0\0\0IEND\xae\x42\x60\x82", 12)};
   return {
       .frames_per_chunk = 16,  // few wait to be written, and workers end nearly together
       .signature = fmt::format("png by zlib {}", zlibVersion()),
       .make_encoder = [format = request.format] { return std::make_unique<PngEncoder>(format); },
-      .open =
-          [pattern = FramePattern(request.name), overwrite = request.overwrite,
-           start_number = request.settings.start_number](std::int64_t frames) {
-            return std::make_unique<PngSequence>(pattern, frames, overwrite, start_number);
-          }};
+      .open = sequence_of(request, kind)};
 }
 
 }  // namespace piblocks

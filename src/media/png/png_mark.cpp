@@ -43,15 +43,18 @@ Bytes with_png_mark(ByteSpan png, PngMark mark) {
 }
 
 bool has_png_mark(const fs::path& path, PngMark mark) {
+  return has_bytes(path, kMark_at, chunk_of(mark));
+}
+
+bool has_bytes(const fs::path& path, std::size_t at, ByteSpan expected) {
   std::error_code unknown;
   if (!fs::is_regular_file(fs::symlink_status(path, unknown))) return false;
-  const Bytes expected = chunk_of(mark);
   std::string found(expected.size(), '\0');
   std::ifstream file(path, std::ios::binary);
-  file.seekg(kMark_at);
+  file.seekg(static_cast<std::streamoff>(at));
   file.read(found.data(), static_cast<std::streamsize>(found.size()));
   if (file.bad()) {
-    throw IoError("png: cannot read '" + path.string() + "': " + error_text(errno));
+    throw IoError("output: cannot read '" + path.string() + "': " + error_text(errno));
   }
   return file && std::ranges::equal(found, expected, [](char a, std::uint8_t b) {
            return static_cast<std::uint8_t>(a) == b;

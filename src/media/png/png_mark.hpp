@@ -21,4 +21,8 @@ Bytes with_png_mark(ByteSpan png, PngMark mark);
 /// not read it. @throws IoError if reading fails.
 bool has_png_mark(const std::filesystem::path& path, PngMark mark);
 
+/// Whether this is a file, not a symbolic link, with these bytes at a place of it.
+/// @throws IoError if reading fails.
+bool has_bytes(const std::filesystem::path& path, std::size_t at, ByteSpan expected);
+
 }  // namespace piblocks

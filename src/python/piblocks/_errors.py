@@ -43,6 +43,7 @@ _OPTIONS = {
     "output": "file",
     "overwrite": "overwrite=True",
     "panels": "show_panels",
+    "resume": "resume=True",
     "red-color": "red_color",
     "show": "show_overlays",
     "shutter": "view_shutter",

@@ -61,18 +61,13 @@ def _progress(progress: Union[Progress, bool, None], name: str) -> Progress | No
     return progress
 
 
-def _part(part: Any) -> bytes | None:
-    if part is None:
-        return None
-    return b"/".join(texts("part", part))
-
-
 def render(
     script: _piblocks.Script,
     output: Any,
     progress: Union[Progress, bool, None],
     bundle: Any,
     poster: Any,
+    frames: Any,
     part: Any,
     given: dict[str, Any],
 ) -> Rendered:
@@ -80,20 +75,21 @@ def render(
     flags = {
         option: flag(option[2:], value)
         for option, value in given.items()
-        if option in ("--smallest", "--profile", "--overwrite")
+        if option in ("--smallest", "--profile", "--overwrite", "--resume")
     }
     texts_given = options({**given, **flags})
     if bundle is not None:
         texts_given[b"--bundle"] = path("bundle", bundle)
     if poster is not None:
         texts_given[b"--poster"] = instant("poster", poster)
-    share = _part(part)
-    if share is not None:
-        texts_given[b"--part"] = share
-    written, frames, notes, profile = _piblocks.render(
+    if frames is not None:
+        texts_given[b"--frames"] = b"-".join(texts("frames", frames))
+    if part is not None:
+        texts_given[b"--part"] = b"/".join(texts("part", part))
+    written, count, notes, profile = _piblocks.render(
         script, name, texts_given, _progress(progress, os.fsdecode(name))
     )
-    return Rendered(os.fsdecode(written), frames, tuple(notes), dict(profile))
+    return Rendered(os.fsdecode(written), count, tuple(notes), dict(profile))
 
 
 def still(script: _piblocks.Script, output: Any, at: Any, format: Any) -> None:

@@ -350,12 +350,14 @@ class Scene:
         plays: int | None = None,
         smallest: bool = False,
         captions: str | None = None,
+        frames: Any = None,
         part: Any = None,
         bundle: Path | None = None,
         poster: Any = None,
         max_flashes: int | None = None,
         profile: bool = False,
         overwrite: bool = False,
+        resume: bool = False,
     ) -> Rendered:
         """Renders the film. The file appears when it is complete, or not at all.
 
@@ -363,7 +365,8 @@ class Scene:
         meanwhile, and Ctrl-C stops it.
 
         :param file: its ending selects the format: .mp4, .mov, .webm, .gif, .apng, .webp, .y4m,
-            .wav, .html (a page to step through), .framehash, or pictures as "frames/%06d.png".
+            .wav, .html (a page to step through), .pdf (a page for each frame), .framehash, or
+            pictures as "frames/%06d.png" or .svg.
         :param progress: True for a line on standard error; or called with the frames done and the
             frames in all. An exception in it stops the rendering, and is raised.
         :param jobs: threads (default: one a processor); changes no byte.
@@ -371,11 +374,15 @@ class Scene:
         :param plays: how often a GIF, APNG or WebP plays (default: for ever).
         :param captions: "inside" gives an MP4 a track of captions.
         :param for_: size, rate and background that suit "powerpoint", "web", ...
+        :param frames: (120, 180) renders these frames alone, the first being 0. Numbered pictures
+            get the numbers that they have in the whole film, and the others stay.
         :param part: (2, 3) renders the second of three shares, for ``join``.
         :param bundle: a folder for the video, a poster, captions, and slides; of a storyboard
             also a video for each part.
         :param overwrite: lets pictures of a sequence, and files of a bundle or part, replace files
             that no earlier run has made.
+        :param resume: keeps the numbered pictures that an interrupted run of the same scene and
+            options has left, and leaves those of this one if it is interrupted.
         :raises UsageError: DrawError, MediaError, IoError, SimulationError, KeyboardInterrupt
         """
         given = {
@@ -391,8 +398,9 @@ class Scene:
             "--max-flashes": max_flashes,
             "--profile": profile,
             "--overwrite": overwrite,
+            "--resume": resume,
         }
-        return _render.render(self._script, file, progress, bundle, poster, part, given)
+        return _render.render(self._script, file, progress, bundle, poster, frames, part, given)
 
     def animate(self) -> Any:
         """A slider over the exact frames in a notebook: a widget of ipywidgets 7 or later.
