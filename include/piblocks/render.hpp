@@ -57,7 +57,7 @@ struct RenderJob {
   /// that holds the MP4 and steps through it.
   std::string output;
   EncoderSettings encoder = {};
-  int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
+  int jobs = 1;  ///< most frames painted and encoded at the same time, >= 1; changes no byte
   /// Renders this share only, to the file shard_name().
   std::optional<Shard> shard = {};
   bool profile = false;  ///< whether to measure what each step costs
@@ -65,7 +65,8 @@ struct RenderJob {
   std::optional<Bundle> bundle = {};
   /// Whether the MP4 has a track of captions: those of Bundle.
   bool captions_inside = false;
-  /// Renders nothing if more flashes than this would be seen within a second (WCAG 2.3.1: 3), >= 1.
+  /// Renders nothing if, in the whole film, more flashes than this would be seen within a second
+  /// (WCAG 2.3.1: 3), >= 1.
   std::optional<int> max_flashes = {};
   /// Whether files whose names piblocks makes (pictures of a sequence, files of a bundle, a shard)
   /// may replace files that no earlier run has made.

@@ -54,8 +54,8 @@ void add_encoder_options(Command& command) {
   command.add_flag("--smallest",
                    "Smallest MP4, by libx264: under half the size, and many\ntimes the time");
   command.add_value("--start-number", "N",
-                    "Number of the first picture of a sequence (default: 1); what\n"
-                    "follows the last one then stays");
+                    "Number of the first picture of a sequence (default: 1); with\n"
+                    "this option, pictures with higher numbers stay");
   command.add_value("--plays", "N", "How often a GIF, APNG or WebP plays (default: for ever)");
 }
 

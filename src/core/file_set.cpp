@@ -126,7 +126,8 @@ bool FileSet::finish_commit(const fs::path& folder) const {
 
 void FileSet::check_job(const fs::path& folder) const {
   const std::string& wanted = resumption_.job;
-  const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kJob, 2 * wanted.size());
+  constexpr std::size_t kMost_bytes = std::size_t{64} << 20;
+  const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kJob, kMost_bytes);
   const std::string left(bytes.begin(), bytes.end());
   if (left == wanted) return;
   const auto at = std::size_t(std::ranges::mismatch(wanted, left).in1 - wanted.begin());
@@ -218,6 +219,7 @@ void FileSet::move_into_place() const {
   if (error == 0) return;
   for (std::size_t i = 0; i < placed; ++i) renaming.take_back(names_[i].c_str());
   for (std::size_t i = 0; i < removed; ++i) renaming.put_back(removed_[i].c_str());
+  ::rmdir(old.c_str());  // else the next run would take the set for one that is half in place
   if (placed < names_.size()) fail_output("rename to", folder_ / names_[placed], error);
   fail_output("remove", folder_ / removed_[removed], error);
 }

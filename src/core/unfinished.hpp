@@ -1,5 +1,5 @@
 // Files and folders that have no final name yet. In: the final name. Out: a locked temporary file
-// or folder beside it, removed unless renamed.
+// or folder beside it, removed unless it is renamed or left for another process.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 namespace piblocks {
 
 /// A file or folder under a temporary name, NAME.unfinished-CODE beside the final one. The
-/// destructor removes it unless it has been renamed.
+/// destructor removes it unless it has been renamed or released.
 ///
 /// CODE is ten random letters or digits and six that are computed from NAME and these ten, so no
 /// other program makes such a name. The file or folder is locked (flock) as long as it is written.
 /// A killed process leaves it without a lock, and the next run for the same NAME by the same user
-/// removes it. On file systems without locks it stays.
+/// removes it, or does what its judge says. On file systems without locks it stays.
 class Unfinished {
  public:
   enum class Kind { file, folder };

@@ -77,8 +77,8 @@ std::string name_of(const FilmRun& run);
 /// The names of all runs of a part.
 std::string names_of(const Part& part, std::string_view between);
 
-/// What a part is called in a list of them: the names of its runs, beside a diagram of one without
-/// a title; or the words of its card.
+/// What a part is called in a list of them: the words of its card, or the names of its runs; of one
+/// run without a title also its diagram's.
 std::string name_of(const Part& part);
 
 /// The lines of a card.

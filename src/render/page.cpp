@@ -115,10 +115,12 @@ void write_page(const Film& film, const fs::path& video, OutputFile& page,
 void check_page_size(const std::string& page, const fs::path& folder, const Progress& progress) {
   std::uintmax_t size = 0;
   std::error_code gone;  // a file that takes its name has gone for a moment
-  for (const auto& entry : fs::directory_iterator(folder, gone)) {
-    const bool is_file = entry.is_regular_file(gone);
-    const std::uintmax_t bytes = is_file ? entry.file_size(gone) : 0;
-    if (!gone) size += bytes;
+  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end;
+       entry.increment(gone)) {
+    std::error_code unknown;
+    const bool is_file = entry->is_regular_file(unknown);
+    const std::uintmax_t bytes = is_file ? entry->file_size(unknown) : 0;
+    if (!unknown) size += bytes;
   }
   if (size <= kMostVideo_bytes) return;
   throw UsageError(

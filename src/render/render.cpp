@@ -4,6 +4,7 @@
 #include <piblocks/render.hpp>
 
 #include <atomic>
+#include <filesystem>
 
 #include "core/ordered_pool.hpp"
 #include "core/processors.hpp"
@@ -86,14 +87,16 @@ class Worker {
       : plan_(plan),
         profile_(profile),
         frames_done_(frames_done),
-        canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
-        encoder_(plan.output.is_vector ? nullptr : plan.output.make_encoder()) {}
+        encoder_(plan.output.is_vector ? nullptr : plan.output.make_encoder()) {
+    const View& view = plan.film.view();
+    if (encoder_) canvas_.emplace(view.width_px, view.height_px, view.background);
+  }
 
   /// @param kept  so many frames of the output are there already.
   EncodedWork work(std::int64_t chunk, std::int64_t kept, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
     const std::int64_t first = std::max(plan_.chunks.begin(chunk), kept);
-    canvas_.listen(stop);
+    if (canvas_) canvas_->listen(stop);
     if (plan_.output.needs_frame_before && first > 0) take_frame(first - 1, clock);
     if (encoder_) encoder_->begin(first);
     for (auto frame = first; frame < plan_.chunks.end(chunk); ++frame) {
@@ -102,7 +105,7 @@ class Worker {
       if (encoder_) encoder_->encode();
       frames_done_.fetch_add(1, std::memory_order_relaxed);
     }
-    if (!encoder_) return {std::exchange(drawn_, {}), {}, clock.spent()};
+    if (!encoder_) return {std::exchange(svg_chunk_, {}), {}, clock.spent()};
     EncodedChunk encoded = encoder_->finish();
     return {std::move(encoded), encoder_->method(), clock.spent()};
   }
@@ -113,21 +116,22 @@ class Worker {
     DrawList list = plan_.film.frame(plan_.frames.first + frame);
     clock.enter(Step::paint);
     if (!encoder_) {
-      drawn_.push_back({.bytes = draw_svg(list), .pts = frame});
+      svg_chunk_.push_back({.bytes = draw_svg(list), .pts = frame});
       return;
     }
-    const std::span<const PixelRect> changed = canvas_.update(std::move(list));
+    const std::span<const PixelRect> changed = canvas_->update(std::move(list));
     clock.enter(Step::convert);
-    encoder_->take(canvas_.view(), changed);
+    encoder_->take(canvas_->view(), changed);
     clock.enter(Step::encode);
   }
 
   const Plan& plan_;
   bool profile_;
   std::atomic<std::int64_t>& frames_done_;
-  Canvas canvas_;
-  std::unique_ptr<ChunkEncoder> encoder_;  ///< none of vector files
-  EncodedChunk drawn_;                     ///< these
+  // Of pixels.
+  std::optional<Canvas> canvas_;
+  std::unique_ptr<ChunkEncoder> encoder_;
+  EncodedChunk svg_chunk_;  ///< of vector files
 };
 
 /// A half-open range of chunks.
@@ -148,7 +152,9 @@ std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
     header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
     return open_shard(shard_name(job.output, *job.shard), header, job.overwrite);
   }
-  if (job.frames) header.emplace_back("first-frame", std::to_string(job.frames->first));
+  // For a later --resume.
+  header.emplace_back("name", std::filesystem::path(job.output).filename());
+  header.emplace_back("first-frame", std::to_string(plan.frames.first));
   return plan.output.open({plan.chunks.frame_count, {text_of(header), job.resume}});
 }
 
@@ -221,7 +227,8 @@ std::vector<std::string> notes_of(const Plan& plan) {
   return notes;
 }
 
-/// More workers than processors make nothing faster, and may take no more than some 600 MB.
+/// More workers than processors make nothing faster: these are started only if all fit into some
+/// 600 MB.
 int workers_of(const RenderJob& job, const View& view) {
   constexpr std::int64_t kMost_bytes = 600'000'000;
   constexpr std::int64_t kWorker_bytes = 90;  // a pixel: those of VP9, the most that was measured
@@ -338,11 +345,18 @@ Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
   if (job.frames && (job.shard || job.bundle || is_page(job.output))) {
     throw UsageError("frames: parts, pages and bundles are of the whole film; leave frames out");
   }
-  if (job.resume && (job.shard || !has_numbers(job.output))) {
-    throw UsageError(
-        fmt::format("resume: only pictures of a sequence are kept; render '{}' in parts, --part "
-                    "I/N, each of which is kept once it is done",
-                    job.output));
+  if (job.resume && job.shard) {
+    throw UsageError("resume: a part is whole once it is done; leave resume out");
+  }
+  if (job.resume && !has_numbers(job.output)) {
+    throw UsageError(fmt::format(
+        "resume: only pictures of a sequence are kept, and '{}' is none; leave resume out, or "
+        "render parts of a video (--part), each of which is kept once it is done",
+        job.output));
+  }
+  if ((job.bundle || is_page(job.output)) && (job.encoder.plays || job.encoder.start_number)) {
+    throw UsageError(fmt::format(
+        "output: '{}' has no use for plays or a start number; leave them out", job.output));
   }
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);

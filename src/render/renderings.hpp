@@ -50,7 +50,7 @@ std::vector<std::string> bundle_files(const RenderJob& job);
 /// Whether an output of this name is a page: `*.html`.
 bool is_page(const std::string& output);
 
-/// How large a video becomes is known when it is there, so this is asked again and again.
+/// Nobody knows how large a video becomes before it is written: call this now and then.
 /// @param folder  with the video, whatever its name is while it is written
 /// @throws UsageError if a page with this video is larger than browsers load.
 void check_page_size(const std::string& page, const std::filesystem::path& folder,

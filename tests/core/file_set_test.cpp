@@ -80,6 +80,32 @@ TEST_F(FileSetTest, TakesAllNamesBackWhereOneCannotBeTaken) {
   EXPECT_EQ(left, (Files{{"1", "old"}, {"3", "old"}}));
 }
 
+/// A set that is kept to be resumed, and could not take its names, is not half in place.
+TEST_F(FileSetTest, KeepsWhatItCouldNotName) {
+  const auto unfinished = [&](const std::string& job) {
+    return Resumption{.job = job, .is_wanted = true};
+  };
+  {
+    FileSet set(folder_.path(), "set", Unfinished::Sharing::exclusive, unfinished("name: one\n"));
+    const auto bytes = std::vector<std::uint8_t>(3, 'x');
+    set.add("a", bytes);
+    set.add("b", bytes);
+    std::filesystem::remove(set.temporary_folder() / "new" / "b");
+    EXPECT_THROW(set.commit(), IoError);
+  }
+  EXPECT_THROW(FileSet(folder_.path(), "set", Unfinished::Sharing::exclusive,
+                       unfinished("name: two\n")),
+               UsageError);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a"));
+  {
+    const FileSet again(folder_.path(), "set", Unfinished::Sharing::exclusive,
+                        unfinished("name: one\n"));
+    EXPECT_TRUE(std::filesystem::exists(again.temporary_folder() / "new" / "a"));
+  }
+  const FileSet other(folder_.path(), "set");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a"));
+}
+
 TEST_F(FileSetTest, KeepsPermissions) {
   write("1", "old");
   fs::permissions(folder_ / "1", fs::perms(0600));

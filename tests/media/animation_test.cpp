@@ -265,7 +265,7 @@ TEST(Animation, HoldsAnyAlpha) {
     const TemporaryFolder folder;
     const auto output = set_up_output(folder / name, format, {});
     const auto encoder = output.make_encoder();
-    const auto sink = output.open(40);
+    const auto sink = output.open({40});
     encoder->begin(0);
     for (std::int64_t i = 0; i < 40; ++i) add(*encoder, with_alpha(frame(i, 0x80402000)));
     sink->append(encoder->finish());

@@ -65,10 +65,10 @@ TEST(Shots, AreTheFramesOfTheFilmOneAfterTheOther) {
   ASSERT_EQ(std::ssize(expected), film.frame_count());
   std::vector<std::string> found;
   for (std::size_t i = 0; i < film.segments().size(); ++i) {
-    EXPECT_EQ(film.shot(i).begin, std::ssize(found)) << i;
+    EXPECT_EQ(film.shot(i).first, std::ssize(found)) << i;
+    job.frames = film.shot(i);
     job.output = folder / ("shot-" + std::to_string(i) + ".framehash");
-    EXPECT_EQ(render_shot(job, film, film.shot(i), nullptr, no_report, {}).frame_count,
-              film.shot(i).count());
+    EXPECT_EQ(render_film(job, film, no_report, {}).frame_count, film.shot(i).count());
     for (const std::string& hash : hashes(job.output)) found.push_back(hash);
   }
   EXPECT_EQ(found, expected);
@@ -79,8 +79,8 @@ TEST(Shots, EndBeforeTheNextFade) {
   const Film film(script_of(kFourShots), {FilmUse::audio_only});
   for (std::size_t i = 0; i + 1 < film.segments().size(); ++i) {
     const PlacedSegment& next = film.segments()[i + 1];
-    EXPECT_EQ(film.shot(i).end, next.first_frame);
-    EXPECT_LE(film.shot(i).end, next.first_seen());
+    EXPECT_EQ(film.shot(i).last + 1, next.first_frame);
+    EXPECT_LT(film.shot(i).last, next.first_seen());
   }
 }
 
@@ -98,13 +98,12 @@ std::vector<float> samples_of(SampleSource& source, std::size_t room) {
 TEST(Shots, HaveTheSoundOfTheFilm) {
   const Film film(script_of(kFourShots), {FilmUse::audio_only});
   const auto ignore = [](std::int64_t) {};
-  FilmSound whole(film, {}, ignore);
-  FilmSound shared(film, {}, ignore);
+  FilmSound whole(film, film.frames(), {}, ignore);
   const std::vector<float> expected = samples_of(whole, 2048);
   std::vector<float> found;
   for (std::size_t i = 0; i < film.segments().size(); ++i) {
     const SoundFormat format = sound_format(film.shot(i), film.view().frame_rate);
-    ShotSound sound(shared, format.size);
+    FilmSound sound(film, film.shot(i), {}, ignore);
     const std::vector<float> shot = samples_of(sound, 2 * 1000 + 2 * i);
     ASSERT_EQ(std::ssize(shot), 2 * format.size) << i;
     for (std::size_t k = 0; k < shot.size(); ++k) {

@@ -1,5 +1,7 @@
 #include "media/gif/lzw.hpp"
 
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <vector>
 
@@ -79,11 +81,11 @@ void append_lzw(Bytes& bytes, ByteSpan codes, const Bytes& indices, int bits) {
     held_bits += width_bits;
     for (; held_bits >= 8; held_bits -= 8, held >>= 8) data.push_back(std::uint8_t(held));
   };
-  std::uint32_t last_string = 0;  // that a reader knows after the next code
+  std::uint32_t last_string = 0;  // the last one that a reader knows once it has the next code
   for (; codes.size() >= 2; codes = codes.subspan(2)) {
     const auto code = std::uint32_t(from_little_endian(codes.first(2)));
-    put(code < kLzwClear ? indices.at(code)
-                         : clear + code - kLzwClear + (code > kLzwClear ? 1 : 0));
+    if (code < kLzwClear && code >= indices.size()) throw MediaError("gif: an image is damaged");
+    put(code < kLzwClear ? indices[code] : clear + code - kLzwClear + (code > kLzwClear ? 1 : 0));
     if (code == kLzwClear) {
       width_bits = bits + 1;
       last_string = clear + 1;

@@ -22,6 +22,9 @@ void AnimationEncoder::encode() {
 void AnimationSink::append(const EncodedChunk& chunk) {
   counter_.take(chunk);
   for (const Packet& packet : chunk) {
+    if (packet.bytes.empty() && last_.bytes.empty()) {
+      throw MediaError("output: the first image is missing");
+    }
     if (packet.bytes.empty()) continue;
     if (packet.bytes.size() < least_bytes_) throw MediaError("output: an image is cut off");
     write_last(packet.pts);

@@ -106,7 +106,8 @@ class ChunkEncoder {
   int height_px_;
 };
 
-/// An output being written. Destroying it before finish() removes every trace of it.
+/// An output being written. Destroying it before finish() removes every trace of it, unless it was
+/// opened to be resumed.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;

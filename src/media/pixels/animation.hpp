@@ -39,7 +39,8 @@ class ImageFrames {
     end_s_ += duration_s;
     const Integer end = floor(end_s_ * *rate_ + Rational(1, 2));
     const Integer count = end - std::exchange(end_, end);
-    return count.fits_slong_p() ? std::max(1L, count.get_si()) : 1;
+    constexpr int kMostFrames = 1'000'000;  // more than any film of ours has
+    return end_ <= kMostFrames ? std::max(1L, count.get_si()) : 1;
   }
 
  private:
