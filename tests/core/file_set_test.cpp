@@ -93,9 +93,9 @@ TEST_F(FileSetTest, KeepsWhatItCouldNotName) {
     std::filesystem::remove(set.temporary_folder() / "new" / "b");
     EXPECT_THROW(set.commit(), IoError);
   }
-  EXPECT_THROW(FileSet(folder_.path(), "set", Unfinished::Sharing::exclusive,
-                       unfinished("name: two\n")),
-               UsageError);
+  EXPECT_THROW(
+      FileSet(folder_.path(), "set", Unfinished::Sharing::exclusive, unfinished("name: two\n")),
+      UsageError);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a"));
   {
     const FileSet again(folder_.path(), "set", Unfinished::Sharing::exclusive,
