@@ -179,7 +179,7 @@ TEST_F(ResumedTest, OnlyByTheSameRun) {
       {resume({"--theme", "dark"}), "view."},
       {resume({"--transparent"}), "view."},
       {resume({"--start-number", "2"}), "start-number;"},
-      {resume({"--frames", "0-1439"}), "first-frame;"},
+      {resume({"--frames", "1-1439"}), "frames;"},
       {larger, "view.size;"}};
   for (const auto& [arguments, name] : others) {
     const CommandResult result = run(arguments);
@@ -212,8 +212,11 @@ TEST_F(ResumedTest, ARunThatWasNotMeantTo) {
 
 TEST_F(ResumedTest, IsASequenceOfPictures) {
   for (const char* film : {"a.mp4", "-", "null", "a.html", "a.wav"}) {
-    EXPECT_TRUE(contains(run(small_render({"-o", film, "--resume"})).err, "--part I/N"));
+    EXPECT_TRUE(
+        contains(run(small_render({"-o", film, "--resume"})).err, "only pictures of a sequence"));
   }
+  const CommandResult part = run(small_render({"-o", "a.mp4", "--resume", "--part", "1/2"}));
+  EXPECT_TRUE(contains(part.err, "a part is whole once it is done")) << part.err;
   EXPECT_TRUE(files().empty());
 }
 
