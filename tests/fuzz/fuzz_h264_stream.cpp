@@ -125,10 +125,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<std::uint8_t> unit;
   std::vector<std::uint8_t> other_unit;
   const std::vector<Rect> all = {{0, 0, config.width_px, config.height_px}};
+  PictureType last = PictureType::idr;
   for (int frame = 0; frame < kMostFrames && (frame == 0 || numbers.has_more()); ++frame) {
     if (frame > 0) pictures.advance();
     const int chance = numbers.integer(1, kOneIn);
-    if (chance == 2 && frame > 0) {
+    // After a key frame, idr_pic_id would be another one.
+    if (chance == 2 && last == PictureType::p) {
       ++counter.restarts;
       stream->finish();
       encoder.restart();
@@ -140,6 +142,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const PictureType type = chance == 1 && frame > 0 ? PictureType::idr : PictureType::p;
     const std::vector<Rect> changed = rects_of(pictures.changed(), config, numbers);
     const CodedPicture coded = encoder.encode(source, changed, type, unit);
+    last = coded.type;
     stream->take(source, coded, unit);
     other->encode(source, all, type, other_unit);
     require(unit == other_unit, "the bytes depend on what was before, or on the rectangles");

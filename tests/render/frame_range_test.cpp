@@ -76,6 +76,7 @@ TEST_F(FrameRangeTest, IsAFilmOfTheSameSamples) {
   constexpr std::size_t kHeader = 44;  // of a WAV file
   constexpr std::size_t kPair = 6;
   constexpr std::size_t kFrame_pairs = 48000 / 15;
+  constexpr std::size_t kFade_pairs = 48000 / 200;  // at a cut
   render_frames("a.wav", {});
   const std::string sound = file_contents(path("a.wav"));
   ASSERT_EQ(sound.size(), kHeader + kFrames * kFrame_pairs * kPair);
@@ -89,8 +90,11 @@ TEST_F(FrameRangeTest, IsAFilmOfTheSameSamples) {
     const auto first = std::size_t(range.first);
     const auto count = std::size_t(range.count());
     render_frames("b.wav", range);
-    EXPECT_TRUE(file_contents(path("b.wav")).substr(kHeader) ==
-                sound.substr(kHeader + first * kFrame_pairs * kPair, count * kFrame_pairs * kPair));
+    const std::string part = file_contents(path("b.wav")).substr(kHeader);
+    ASSERT_EQ(part.size(), count * kFrame_pairs * kPair);
+    const std::size_t equal = part.size() - kFade_pairs * kPair;
+    EXPECT_TRUE(part.substr(0, equal) ==
+                sound.substr(kHeader + first * kFrame_pairs * kPair, equal));
     render_frames("b.y4m", range);
     EXPECT_TRUE(file_contents(path("b.y4m")).substr(header) ==
                 pictures.substr(header + first * frame, count * frame));
