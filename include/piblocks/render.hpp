@@ -65,7 +65,7 @@ struct RenderJob {
   std::optional<Bundle> bundle = {};
   /// Whether the MP4 has a track of captions: those of Bundle.
   bool captions_inside = false;
-  /// Renders nothing if, in the whole film, more flashes than this would be seen within a second
+  /// Renders nothing if more flashes than this would be seen within a second
   /// (WCAG 2.3.1: 3), >= 1.
   std::optional<int> max_flashes = {};
   /// Whether files whose names piblocks makes (pictures of a sequence, files of a bundle, a shard)

@@ -58,7 +58,8 @@ class OrderedPool {
   }
 
   /// The result of the next task in order; nothing after the last or when told to stop.
-  /// Rethrows what that task has thrown, whatever later ones do; or what making a task has.
+  /// @throws what that task has thrown, also if a later task has thrown before it; what making a
+  ///         task has thrown
   /// @param while_waiting  called ten times a second.
   std::optional<Result> take(
       const std::stop_token& stop, const std::function<void()>& while_waiting = [] {}) {

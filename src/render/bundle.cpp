@@ -20,6 +20,7 @@
 #include "render/captions.hpp"
 #include "render/renderings.hpp"
 #include "render/slides.hpp"
+#include "render/step_clock.hpp"
 #include "render/video_text.hpp"
 
 namespace piblocks {
@@ -168,17 +169,12 @@ void remove_rest(const RenderJob& job, const EarlierBundle& earlier, FileSet& fi
   }
 }
 
-void add(Profile& sum, const Profile& more) {
-  for (std::size_t i = 0; i < sum.steps.size(); ++i) sum.steps[i] += more.steps[i];
-  sum.total_s = more.total_s;
-  sum.chunk_methods.insert(sum.chunk_methods.end(), more.chunk_methods.begin(),
-                           more.chunk_methods.end());
-}
-
 /// The video of each shot, and its last picture.
 Profile render_shots(RenderJob job, const Film& film, FileSet& files, const OnProgress& on_progress,
                      const std::stop_token& stop) {
   Profile profile;
+  std::optional<FilmSound> sound;
+  if (sound_of(job.script).on) sound.emplace(film, film.frames(), stop, [](std::int64_t) {});
   job.max_flashes.reset();  // the whole film has been checked
   const std::string video = job.output;
   for (std::size_t i = 0; i < film.segments().size(); ++i) {
@@ -189,7 +185,7 @@ Profile render_shots(RenderJob job, const Film& film, FileSet& files, const OnPr
     const auto report = [&](const Progress& shot) {
       on_progress({frames.first + shot.frames_done, film.frame_count()});
     };
-    add(profile, render_film(job, film, report, stop).profile);
+    add(profile, render_film(job, film, report, stop, sound ? &*sound : nullptr).profile);
   }
   return profile;
 }

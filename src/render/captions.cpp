@@ -62,7 +62,8 @@ class CountWords {
   }
 
  private:
-  /// What may be said of the highest count, the longest text first.
+  /// Texts for the highest count, the longest first: the first one is shown for which there is
+  /// time.
   static std::vector<std::string> ends_of(const ShownRun& run) {
     const std::string count = collisions(run.at_end);
     if (!run.is_over()) return {count};

@@ -337,27 +337,33 @@ std::int64_t frame_at(const Film& film, const Instant& instant) {
 
 FilmSound::FilmSound(const Film& film, const FrameRange& frames, std::stop_token stop,
                      std::function<void(std::int64_t)> on_samples)
-    : soundtrack_(voices_of(film),
+    : film_(film),
+      soundtrack_(voices_of(film),
                   Rational(to_integer(film.frame_count())) / film.view().frame_rate),
       stop_(std::move(stop)),
-      on_samples_(std::move(on_samples)),
-      before_(samples_before(frames.first, film.view().frame_rate)),
-      size_(sound_format(frames, film.view().frame_rate).size),
-      is_cut_(frames.last < film.frames().last) {}
+      on_samples_(std::move(on_samples)) {
+  begin(frames);
+}
+
+void FilmSound::begin(const FrameRange& frames) {
+  first_ = samples_before(frames.first, film_.view().frame_rate);
+  end_ = samples_before(frames.last + 1, film_.view().frame_rate);
+  is_cut_ = frames.last < film_.frames().last;
+}
 
 std::size_t FilmSound::read(std::span<float> samples) {
   // The level of each sample depends on those before it.
-  for (check_stop(stop_); before_ > 0; check_stop(stop_)) {
-    before_ -= std::int64_t(soundtrack_.read(samples.first(room(samples, before_))));
+  for (check_stop(stop_); next_ < first_; check_stop(stop_)) {
+    next_ += std::int64_t(soundtrack_.read(samples.first(room(samples, first_ - next_))));
   }
-  const std::size_t count = soundtrack_.read(samples.first(room(samples, size_ - count_)));
+  const std::size_t count = soundtrack_.read(samples.first(room(samples, end_ - next_)));
   for (std::size_t i = 0; is_cut_ && i < count; ++i) {
-    const auto weight = float(weight_before_cut(double(size_ - count_ - std::int64_t(i))));
+    const auto weight = float(weight_before_cut(double(end_ - next_ - std::int64_t(i))));
     samples[2 * i] *= weight;
     samples[2 * i + 1] *= weight;
   }
-  count_ += static_cast<std::int64_t>(count);
-  on_samples_(count_);
+  next_ += static_cast<std::int64_t>(count);
+  on_samples_(next_ - first_);
   return count;
 }
 

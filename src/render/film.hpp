@@ -192,15 +192,20 @@ class FilmSound final : public SampleSource {
             std::function<void(std::int64_t)> on_samples);
 
   std::size_t read(std::span<float> samples) override;
+  /// From now on gives the samples of these frames, none of which is before those of the range
+  /// before: what the film's samples are made of is made once.
+  void begin(const FrameRange& frames);
 
  private:
+  const Film& film_;
   Soundtrack soundtrack_;
   std::stop_token stop_;
   std::function<void(std::int64_t)> on_samples_;
-  std::int64_t before_;  ///< pairs to leave out
-  std::int64_t size_;
-  bool is_cut_;
-  std::int64_t count_ = 0;
+  // Pairs of samples from the beginning of the film on.
+  std::int64_t first_ = 0;
+  std::int64_t end_ = 0;
+  std::int64_t next_ = 0;
+  bool is_cut_ = false;
 };
 
 }  // namespace piblocks

@@ -157,7 +157,8 @@ std::optional<Flashing> FlashMeter::most_flashing() const {
   return Flashing{frame_, share};
 }
 
-void check_flashes(const Film& film, int most, const std::stop_token& stop) {
+void check_flashes(const Film& film, int most, const std::stop_token& stop,
+                   const std::optional<FrameRange>& frames) {
   const View& view = film.view();
   const double frames_per_s = to_double(view.frame_rate);
   FlashMeter meter(view.width_px, view.height_px, frames_per_s, most);
@@ -165,7 +166,8 @@ void check_flashes(const Film& film, int most, const std::stop_token& stop) {
   canvas.listen(stop);
   std::optional<Flashing> first;
   Flashing worst;
-  for (std::int64_t frame = 0; frame < film.frame_count(); ++frame) {
+  const auto [begin, last] = frames.value_or(film.frames());
+  for (std::int64_t frame = begin; frame <= last; ++frame) {
     check_stop(stop);
     const std::span<const PixelRect> changed = canvas.update(film.frame(frame));
     const std::optional<Flashing> found = meter.take(canvas.view(), changed);

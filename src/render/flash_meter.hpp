@@ -85,8 +85,10 @@ class FlashMeter {
 };
 
 /// Paints every frame once, without encoding any.
-/// @param most  flashes within a second that are allowed (WCAG 2.3.1: 3), >= 1.
+/// @param most    flashes within a second that are allowed (WCAG 2.3.1: 3), >= 1.
+/// @param frames  that are rendered; all without it
 /// @throws UsageError as FlashMeter finds; SimulationError, DrawError, Interrupted
-void check_flashes(const Film& film, int most, const std::stop_token& stop);
+void check_flashes(const Film& film, int most, const std::stop_token& stop,
+                   const std::optional<FrameRange>& frames = {});
 
 }  // namespace piblocks

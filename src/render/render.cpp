@@ -79,7 +79,7 @@ std::size_t size_of(const EncodedWork& work) {
   return size;
 }
 
-/// What one thread works with, chunk after chunk.
+/// What one thread works with, chunk after chunk, of pixels.
 class Worker {
  public:
   /// @param frames_done  those of all workers.
@@ -87,25 +87,21 @@ class Worker {
       : plan_(plan),
         profile_(profile),
         frames_done_(frames_done),
-        encoder_(plan.output.is_vector ? nullptr : plan.output.make_encoder()) {
-    const View& view = plan.film.view();
-    if (encoder_) canvas_.emplace(view.width_px, view.height_px, view.background);
-  }
+        canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
+        encoder_(plan.output.make_encoder()) {}
 
-  /// @param kept  so many frames of the output are there already.
-  EncodedWork work(std::int64_t chunk, std::int64_t kept, const std::stop_token& stop) {
+  /// @param frames  of the output
+  EncodedWork work(const FrameRange& frames, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
-    const std::int64_t first = std::max(plan_.chunks.begin(chunk), kept);
-    if (canvas_) canvas_->listen(stop);
-    if (plan_.output.needs_frame_before && first > 0) take_frame(first - 1, clock);
-    if (encoder_) encoder_->begin(first);
-    for (auto frame = first; frame < plan_.chunks.end(chunk); ++frame) {
+    canvas_.listen(stop);
+    if (plan_.output.needs_frame_before && frames.first > 0) take_frame(frames.first - 1, clock);
+    encoder_->begin(frames.first);
+    for (auto frame = frames.first; frame <= frames.last; ++frame) {
       check_stop(stop);
       take_frame(frame, clock);
-      if (encoder_) encoder_->encode();
+      encoder_->encode();
       frames_done_.fetch_add(1, std::memory_order_relaxed);
     }
-    if (!encoder_) return {std::exchange(svg_chunk_, {}), {}, clock.spent()};
     EncodedChunk encoded = encoder_->finish();
     return {std::move(encoded), encoder_->method(), clock.spent()};
   }
@@ -115,24 +111,34 @@ class Worker {
     clock.enter(Step::compose);
     DrawList list = plan_.film.frame(plan_.frames.first + frame);
     clock.enter(Step::paint);
-    if (!encoder_) {
-      svg_chunk_.push_back({.bytes = draw_svg(list), .pts = frame});
-      return;
-    }
-    const std::span<const PixelRect> changed = canvas_->update(std::move(list));
+    const std::span<const PixelRect> changed = canvas_.update(std::move(list));
     clock.enter(Step::convert);
-    encoder_->take(canvas_->view(), changed);
+    encoder_->take(canvas_.view(), changed);
     clock.enter(Step::encode);
   }
 
   const Plan& plan_;
   bool profile_;
   std::atomic<std::int64_t>& frames_done_;
-  // Of pixels.
-  std::optional<Canvas> canvas_;
+  Canvas canvas_;
   std::unique_ptr<ChunkEncoder> encoder_;
-  EncodedChunk svg_chunk_;  ///< of vector files
 };
+
+/// The same as SVG files.
+EncodedWork draw_vectors(const Plan& plan, const FrameRange& frames, bool profile,
+                         std::atomic<std::int64_t>& frames_done, const std::stop_token& stop) {
+  StepClock clock(profile, Step::compose);
+  EncodedChunk chunk;
+  for (auto frame = frames.first; frame <= frames.last; ++frame) {
+    check_stop(stop);
+    clock.enter(Step::compose);
+    const DrawList list = plan.film.frame(plan.frames.first + frame);
+    clock.enter(Step::paint);
+    chunk.push_back({.bytes = draw_svg(list), .pts = frame});
+    frames_done.fetch_add(1, std::memory_order_relaxed);
+  }
+  return {std::move(chunk), {}, clock.spent()};
+}
 
 /// A half-open range of chunks.
 struct ChunkRange {
@@ -167,8 +173,7 @@ void check_shard(const RenderJob& job) {
   if (job.captions_inside) {
     throw UsageError("part: parts have no captions inside; leave --captions or --part out");
   }
-  if (job.output == "-" || job.output == "null" || is_sound_alone(job.output) ||
-      has_ending(job.output, ".pdf")) {
+  if (!has_parts(job.output)) {
     throw UsageError(
         fmt::format("part: there are no parts of output '{}'; name a file that the "
                     "parts are to be joined to",
@@ -201,16 +206,22 @@ struct SoundWork {
   std::unique_ptr<PacketSource> packets;
 };
 
-/// The sound of a plan that has one.
-SoundWork sound_of(const Plan& plan, const OnProgress& on_progress, StepClock& clock,
-                   const std::stop_token& stop) {
+/// The sound of a plan that has one. @param sound  as render_film() takes it
+SoundWork sound_of(const Plan& plan, FilmSound* sound, const OnProgress& on_progress,
+                   StepClock& clock, const std::stop_token& stop) {
   const auto report = [&](std::int64_t samples) {
     if (plan.output.has_frames || samples == plan.sound->size) return;
     const std::int64_t frames = plan.frames.count();
     on_progress({samples * frames / plan.sound->size, frames});
   };
-  SoundWork work{std::make_unique<FilmSound>(plan.film, plan.frames, stop, report), nullptr};
-  work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*work.samples), clock);
+  SoundWork work;
+  if (sound == nullptr) {
+    work.samples = std::make_unique<FilmSound>(plan.film, plan.frames, stop, report);
+  } else {
+    sound->begin(plan.frames);
+  }
+  SampleSource& samples = sound == nullptr ? *work.samples : *sound;
+  work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(samples), clock);
   return work;
 }
 
@@ -238,46 +249,73 @@ int workers_of(const RenderJob& job, const View& view) {
   return std::min(job.jobs, std::max(fitting, processor_count()));
 }
 
-void add(StepSeconds& sum, const StepSeconds& spent) {
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
+/// Hands on how many frames of all workers are done, if that has changed.
+class FramesReport {
+ public:
+  FramesReport(const std::atomic<std::int64_t>& done, std::int64_t count,
+               const OnProgress& on_progress)
+      : done_(done), count_(count), on_progress_(on_progress) {}
+
+  void operator()() {
+    const std::int64_t done = done_;
+    if (std::exchange(reported_, done) != done) on_progress_({done, count_});
+  }
+
+ private:
+  const std::atomic<std::int64_t>& done_;
+  std::int64_t count_;
+  const OnProgress& on_progress_;
+  std::int64_t reported_ = -1;
+};
+
+using Pool = OrderedPool<EncodedWork>;
+
+/// Makes the function of one thread: frames of the output -> packets.
+std::function<EncodedWork(const FrameRange&, const std::stop_token&)> make_worker(
+    const RenderJob& job, const Plan& plan, std::atomic<std::int64_t>& frames_done) {
+  if (is_vector(job.output)) {
+    return [&](const FrameRange& frames, const std::stop_token& stop) {
+      return draw_vectors(plan, frames, job.profile, frames_done, stop);
+    };
+  }
+  const auto worker = std::make_shared<Worker>(plan, job.profile, frames_done);
+  return [worker](const FrameRange& frames, const std::stop_token& stop) {
+    return worker->work(frames, stop);
+  };
 }
 
+/// @param sound  as render_film() takes it
 Rendered render_chunks(const RenderJob& job, const Plan& plan, const OnProgress& on_progress,
-                       const std::stop_token& stop) {
+                       const std::stop_token& stop, FilmSound* sound) {
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const std::int64_t kept = sink->kept_frames();
   const std::int64_t first = std::max(range.begin, plan.chunks.ended_by(kept));
   std::atomic<std::int64_t> frames_done = kept;
-  const auto make_worker = [&] {
-    const auto worker = std::make_shared<Worker>(plan, job.profile, frames_done);
-    return [=](std::int64_t task, const std::stop_token& halt) {
-      return worker->work(first + task, kept, halt);
-    };
-  };
-
   Rendered rendered{plan.output.has_frames
                         ? plan.chunks.begin(range.end) - plan.chunks.begin(range.begin)
                         : plan.frames.count(),
                     {}};
-  std::int64_t reported = -1;
-  const auto report = [&] {
-    const std::int64_t done = frames_done;
-    if (std::exchange(reported, done) != done) on_progress({done, rendered.frame_count});
-  };
+  FramesReport report(frames_done, rendered.frame_count, on_progress);
   report();
   StepClock clock(job.profile, Step::mux);
-  SoundWork sound;
+  SoundWork sound_work;
   if (plan.sound && (!job.shard || job.shard->number == 1)) {
-    sound = sound_of(plan, on_progress, clock, stop);
-    sink->take_sound(*sound.packets);
+    sound_work = sound_of(plan, sound, on_progress, clock, stop);
+    sink->take_sound(*sound_work.packets);
   }
-  OrderedPool<EncodedWork> pool(range.end - first, workers_of(job, plan.film.view()), make_worker,
-                                size_of);
-  while (const auto work = pool.take(stop, report)) {
-    sink->append(work->chunk);
-    if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
-    add(rendered.profile.steps, work->spent);
+  const auto make_task = [&]() -> Pool::Task {
+    return [&, work_on = make_worker(job, plan, frames_done)](std::int64_t task,
+                                                              const std::stop_token& halt) {
+      const std::int64_t chunk = first + task;
+      return work_on({std::max(plan.chunks.begin(chunk), kept), plan.chunks.end(chunk) - 1}, halt);
+    };
+  };
+  Pool pool(range.end - first, workers_of(job, plan.film.view()), make_task, size_of);
+  while (const auto done = pool.take(stop, std::ref(report))) {
+    sink->append(done->chunk);
+    if (job.profile) rendered.profile.chunk_methods.push_back(done->method);
+    add(rendered.profile.steps, done->spent);
     report();
   }
   check_stop(stop);
@@ -285,10 +323,8 @@ Rendered render_chunks(const RenderJob& job, const Plan& plan, const OnProgress&
   sink->finish();
   rendered.aftermath = sink->aftermath();
   if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
-  if (job.profile) {
-    add(rendered.profile.steps, clock.spent());
-    rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
-  }
+  if (job.profile)
+    add(rendered.profile, {clock.spent(), processor_seconds(CLOCK_PROCESS_CPUTIME_ID)});
   return rendered;
 }
 
@@ -301,12 +337,12 @@ Film film_of(const RenderJob& job, const std::stop_token& stop) {
 }
 
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
-                     const std::stop_token& stop) {
+                     const std::stop_token& stop, FilmSound* sound) {
   const Plan plan(job, film);
   if (job.max_flashes && plan.output.has_frames) {
-    check_flashes(plan.film, *job.max_flashes, stop);
+    check_flashes(plan.film, *job.max_flashes, stop, plan.frames);
   }
-  Rendered rendered = plan.output.open ? render_chunks(job, plan, on_progress, stop)
+  Rendered rendered = plan.output.open ? render_chunks(job, plan, on_progress, stop, sound)
                                        : render_pdf(job, film, plan.frames, on_progress, stop);
   rendered.notes = notes_of(plan);  // by now the collisions of all frames are known
   return rendered;
@@ -333,8 +369,7 @@ std::vector<std::string> fit_to_output(RenderJob& job) {
   };
   std::visit(fit, job.script);
   const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };
-  const bool is_vector = has_ending(job.output, ".svg") || has_ending(job.output, ".pdf");
-  if (is_vector && std::ranges::any_of(scenes_of(job.script), is_blurred)) {
+  if (is_vector(job.output) && std::ranges::any_of(scenes_of(job.script), is_blurred)) {
     notes.push_back(fmt::format("'{}' has no motion blur: moving bodies are sharp", job.output));
   }
   return notes;

@@ -26,8 +26,9 @@ namespace piblocks {
 Film film_of(const RenderJob& job, const std::stop_token& stop);
 
 /// render() of a job that is neither a bundle nor a page. @param film  of the job
+/// @param sound  the film's, if several renderings read on in it; null for one of its own
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
-                     const std::stop_token& stop);
+                     const std::stop_token& stop, FilmSound* sound = nullptr);
 
 /// Renders frames of the job's film as the pages of a PDF file.
 /// @throws UsageError if they are too many; as render()

@@ -15,6 +15,18 @@ inline double processor_seconds(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+inline void add(StepSeconds& sum, const StepSeconds& spent) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
+}
+
+/// Adds what a later rendering of the process has cost.
+inline void add(Profile& sum, const Profile& later) {
+  add(sum.steps, later.steps);
+  sum.total_s = later.total_s;
+  sum.chunk_methods.insert(sum.chunk_methods.end(), later.chunk_methods.begin(),
+                           later.chunk_methods.end());
+}
+
 /// Used by one thread. Switched off, it costs a comparison.
 class StepClock {
  public:

@@ -6,52 +6,12 @@
 #include <numeric>
 
 #include "h264/encoder.hpp"
-#include "h264/mp4_file.hpp"
-#include "support/message_of.hpp"
+#include "h264/invented_pictures.hpp"
 
 namespace piblocks::h264 {
 namespace {
 
 using testing_support::message_of;
-
-/// A sequence parameter set of level 2.0, and a picture parameter set.
-const ByteVector kHeaders = {0, 0, 0, 1, 0x67, 66, 0xc0, 20, 0xda, 0, 0, 0, 1, 0x68, 0xce, 0x3c};
-constexpr PictureRate kRate = {60, 1};
-
-Mp4Track track_of(std::int64_t max_pictures, PictureRate rate = kRate) {
-  return {.width_px = 320,
-          .height_px = 180,
-          .rate = rate,
-          .headers = kHeaders,
-          .max_pictures = max_pictures};
-}
-
-/// The NAL unit of picture n: of a size of its own.
-ByteVector unit_of(std::int64_t number, bool is_idr) {
-  ByteVector unit(std::size_t(3 + number % 97), std::uint8_t(1 + number % 255));
-  unit[0] = is_idr ? 0x65 : 0x41;
-  return unit;
-}
-
-/// With bytes before it.
-ByteVector after(ByteVector start, const ByteVector& unit) {
-  start.insert(start.end(), unit.begin(), unit.end());
-  return start;
-}
-
-const ByteVector kStartCode = {0, 0, 0, 1};
-
-bool is_idr(std::int64_t number) { return number % 60 == 0; }
-
-void append_pictures(Mp4Writer& writer, std::int64_t pictures) {
-  for (std::int64_t i = 0; i < pictures; ++i) {
-    writer.append(after(kStartCode, unit_of(i, is_idr(i))), is_idr(i));
-  }
-}
-
-std::string problem_of(const Mp4Track& track) {
-  return message_of<Error>([&] { Mp4Writer(track, [](auto, auto) {}); });
-}
 
 /// The file of a stream with these access units.
 Mp4Boxes boxes_of(const std::vector<ByteVector>& units, const Mp4Track& track) {
@@ -60,22 +20,6 @@ Mp4Boxes boxes_of(const std::vector<ByteVector>& units, const Mp4Track& track) {
   for (const ByteVector& unit : units) writer.append(unit, &unit == units.data());
   writer.finish();
   return {file.bytes(), file.size};
-}
-
-/// Everything but the content of free boxes was written.
-void expect_only_free_holes(const Mp4Memory& file, const Mp4Boxes& boxes) {
-  std::uint64_t end = 0;
-  std::map<std::uint64_t, std::uint64_t> holes;
-  for (const auto& [begin, next] : file.written) {
-    if (begin != end) holes[end] = begin;
-    end = next;
-  }
-  for (const auto& [begin, hole_end] : holes) {
-    const bool is_free =
-        (boxes.starts.at("free") == begin && begin + boxes.sizes.at("free") == hole_end) ||
-        (boxes.starts.at("free'") == begin && begin + boxes.sizes.at("free'") == hole_end);
-    EXPECT_TRUE(is_free) << begin << " to " << hole_end;
-  }
 }
 
 /// A unit of 2^bits bytes.
@@ -429,169 +373,6 @@ TEST(Mp4Writer, SaysTheHighestRateOfASecond) {
   rates_of(200, 0, {30000, 1001});
   rates_of(7, 0, {60, 1});
   rates_of(25, 24, {1, 3});
-}
-
-/// 48000 samples a second, as an AAC encoder with a delay of 1024 makes them.
-Mp4Sound sound_of(std::int64_t samples) {
-  return {.rate_hz = 48000,
-          .config = {0x11, 0x90, 0x56, 0xe5, 0},
-          .packet_samples = 1024,
-          .delay = 1024,
-          .samples = samples};
-}
-
-ByteVector packet_of(std::int64_t number) {
-  return ByteVector(std::size_t(5 + number % 31), std::uint8_t(number));
-}
-
-struct SoundCase {
-  std::int64_t pictures;
-  std::int64_t samples;
-  std::int64_t ahead;  ///< packets that are appended before the picture that needs them
-};
-
-class Mp4SoundTrack : public testing::TestWithParam<SoundCase> {};
-
-TEST_P(Mp4SoundTrack, HasEveryPacketBeforeTheSecondOfPicturesThatFollows) {
-  const auto [pictures, samples, ahead] = GetParam();
-  Mp4Track track = track_of(pictures);
-  track.sound = sound_of(samples);
-  track.captions = {{0, "at once"}, {pictures / 2, "two\nlines, π"}};
-  if (pictures == 1) track.captions.pop_back();
-  Mp4Memory file;
-  Mp4Writer writer(track, file.writer());
-  const std::int64_t packets = (1024 + samples + 1023) / 1024;
-  std::int64_t next = 0;
-  for (std::int64_t i = 0; i < pictures; ++i) {
-    for (; next < packets && (next - ahead) * 1024 * 60 <= i * 48000; ++next) {
-      writer.append_sound(packet_of(next));
-    }
-    writer.append(after(kStartCode, unit_of(i, is_idr(i))), is_idr(i));
-  }
-  for (; next < packets; ++next) writer.append_sound(packet_of(next));
-  writer.finish();
-
-  const Mp4Boxes boxes(file.bytes(), file.size);
-  expect_only_free_holes(file, boxes);
-  const auto expect_bytes = [&](const Sample& sample, const ByteVector& bytes) {
-    ASSERT_EQ(sample.size, bytes.size());
-    EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(),
-                           file.bytes().begin() + std::ptrdiff_t(sample.offset)));
-  };
-  const std::vector<Sample> units = samples_of(boxes);
-  ASSERT_EQ(std::ssize(units), pictures);
-  for (std::int64_t i = 0; i < pictures; ++i) {
-    const ByteVector unit = unit_of(i, is_idr(i));
-    expect_bytes(units[std::size_t(i)], after({0, 0, 0, std::uint8_t(unit.size())}, unit));
-  }
-  const std::vector<Sample> sounds = samples_of(boxes, tables_of("moov/trak'"));
-  ASSERT_EQ(std::ssize(sounds), packets);
-  for (std::int64_t i = 0; i < packets; ++i) expect_bytes(sounds[std::size_t(i)], packet_of(i));
-  // What was there when a second of pictures began is in front of it.
-  for (std::int64_t second = 0; second * 60 < pictures; ++second) {
-    const std::int64_t there = std::min(packets - 1, second * 48000 / 1024 + ahead);
-    EXPECT_LT(sounds[std::size_t(there)].offset, units[std::size_t(second * 60)].offset);
-  }
-  // No sample shares a byte with another one, and together they fill mdat.
-  std::vector<Sample> all = samples_of(boxes, tables_of("moov/trak''"));
-  EXPECT_EQ(all.size(), track.captions.size());
-  all.insert(all.end(), units.begin(), units.end());
-  all.insert(all.end(), sounds.begin(), sounds.end());
-  std::ranges::sort(all, {}, &Sample::offset);
-  std::uint64_t at = boxes.starts.at("mdat");
-  for (const Sample& sample : all) {
-    ASSERT_EQ(sample.offset, at);
-    at += sample.size;
-  }
-  EXPECT_EQ(at, file.size);
-
-  // 15360 units of the movie a second; it is as long as the longer track.
-  const std::uint64_t heard = std::uint64_t(samples * 15360 + 47999) / 48000;
-  EXPECT_EQ(number_at(boxes.at("moov/mvhd"), 16), std::max(heard, std::uint64_t(pictures * 256)));
-  EXPECT_EQ(number_at(boxes.at("moov/mvhd"), 96), 4u) << "the next track";
-  EXPECT_EQ(number_at(boxes.at("moov/trak/tkhd"), 12), 1u);
-  EXPECT_EQ(number_at(boxes.at("moov/trak'/tkhd"), 12), 2u);
-  EXPECT_EQ(number_at(boxes.at("moov/trak''/tkhd"), 12), 3u);
-  EXPECT_EQ(number_at(boxes.at("moov/trak'/edts/elst"), 8), heard);
-  EXPECT_EQ(number_at(boxes.at("moov/trak'/edts/elst"), 12), 1024u) << "the delay is left out";
-  EXPECT_EQ(number_at(boxes.at("moov/trak'/mdia/mdhd"), 16), std::uint64_t(1024 + samples));
-  const ByteVector times = boxes.at(tables_of("moov/trak'") + "stts");
-  std::uint64_t sum = 0;
-  for (std::size_t run = 8; run < times.size(); run += 8) {
-    sum += number_at(times, run) * number_at(times, run + 4);
-  }
-  EXPECT_EQ(sum, std::uint64_t(1024 + samples));
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Mp4SoundTrack,
-                         testing::Values(SoundCase{1, 800, 0}, SoundCase{60, 48000, 0},
-                                         SoundCase{61, 48800, 60}, SoundCase{500, 400000, 3},
-                                         SoundCase{500, 400001, 0}, SoundCase{90, 30000, 1},
-                                         SoundCase{30, 1'000'000, 0}));
-
-TEST(Mp4Writer, ShowsCaptionsFromPictureToPicture) {
-  Mp4Track track = track_of(100);
-  track.captions = {{10, "first"}, {25, ""}, {99, "π"}};
-  Mp4Memory file;
-  Mp4Writer writer(track, file.writer());
-  append_pictures(writer, 100);
-  writer.finish();
-  const Mp4Boxes boxes(file.bytes(), file.size);
-  const std::string tables = tables_of("moov/trak'");
-  std::vector<std::string> texts;
-  for (const Sample& sample : samples_of(boxes, tables)) {
-    const auto begin = file.bytes().begin() + std::ptrdiff_t(sample.offset);
-    EXPECT_EQ(number_at(file.bytes(), sample.offset, 2), sample.size - 2);
-    texts.emplace_back(begin + 2, begin + std::ptrdiff_t(sample.size));
-  }
-  EXPECT_EQ(texts, (std::vector<std::string>{"", "first", "", "π"}));
-  const ByteVector times = boxes.at(tables + "stts");
-  std::vector<std::uint64_t> durations;
-  for (std::size_t run = 8; run < times.size(); run += 8) {
-    EXPECT_EQ(number_at(times, run), 1u);
-    durations.push_back(number_at(times, run + 4) / 256);
-  }
-  EXPECT_EQ(durations, (std::vector<std::uint64_t>{10, 15, 74, 1}));
-}
-
-TEST(Mp4Writer, NamesWhatIsWrongWithOtherTracks) {
-  const auto problem = [](auto&& change) {
-    Mp4Track track = track_of(10);
-    track.sound = sound_of(8000);
-    change(track);
-    return problem_of(track);
-  };
-  EXPECT_EQ(problem([](Mp4Track&) {}), "");
-  EXPECT_EQ(problem([](Mp4Track& track) { track.sound->rate_hz = 96000; }),
-            "h264: sound.rate_hz of an MP4 file is 96000, not in [1, 65535]");
-  EXPECT_EQ(problem([](Mp4Track& track) { track.sound->samples = 0; }),
-            "h264: sound.samples of an MP4 file is 0, not in [1, 140737488355328]");
-  EXPECT_EQ(problem([](Mp4Track& track) { track.sound->config.clear(); }),
-            "h264: the size of sound.config of an MP4 file is 0, not in [1, 64]");
-  const std::string order =
-      "h264: captions of an MP4 file are not in order, or begin after its end";
-  EXPECT_EQ(problem([](Mp4Track& track) { track.captions = {{10, "late"}}; }), order);
-  EXPECT_EQ(problem([](Mp4Track& track) { track.captions = {{-1, "early"}}; }), order);
-  EXPECT_EQ(problem([](Mp4Track& track) { track.captions = {{3, "a"}, {3, "b"}}; }), order);
-  EXPECT_EQ(problem([](Mp4Track& track) {
-              track.captions = {{3, std::string(65536, 'a')}};
-            }),
-            "h264: the size of a caption + 1 of an MP4 file is 65537, not in [1, 65536]");
-
-  Mp4Memory file;
-  Mp4Writer silent(track_of(1), file.writer());
-  EXPECT_EQ(message_of<Error>([&] { silent.append_sound(packet_of(0)); }),
-            "h264: an MP4 file has no sound");
-  Mp4Track track = track_of(1);
-  track.sound = sound_of(800);
-  Mp4Memory other;
-  Mp4Writer writer(track, other.writer());
-  append_pictures(writer, 1);
-  EXPECT_EQ(message_of<Error>([&] { writer.finish(); }),
-            "h264: the sound of an MP4 file is missing");
-  for (int i = 0; i < 3; ++i) writer.append_sound(packet_of(i));  // one more than is needed
-  EXPECT_EQ(message_of<Error>([&] { writer.append_sound(packet_of(3)); }),
-            "h264: an MP4 file has room for 3 packets of sound");
 }
 
 }  // namespace

@@ -99,11 +99,12 @@ TEST(Shots, HaveTheSoundOfTheFilm) {
   const Film film(script_of(kFourShots), {FilmUse::audio_only});
   const auto ignore = [](std::int64_t) {};
   FilmSound whole(film, film.frames(), {}, ignore);
+  FilmSound sound(film, film.frames(), {}, ignore);
   const std::vector<float> expected = samples_of(whole, 2048);
   std::vector<float> found;
   for (std::size_t i = 0; i < film.segments().size(); ++i) {
     const SoundFormat format = sound_format(film.shot(i), film.view().frame_rate);
-    FilmSound sound(film, film.shot(i), {}, ignore);
+    sound.begin(film.shot(i));
     const std::vector<float> shot = samples_of(sound, 2 * 1000 + 2 * i);
     ASSERT_EQ(std::ssize(shot), 2 * format.size) << i;
     for (std::size_t k = 0; k < shot.size(); ++k) {

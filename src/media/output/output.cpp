@@ -32,12 +32,15 @@ constexpr unsigned kPictures = 8;  // keeps them
 constexpr unsigned kPlays = 16;    // says how often it plays
 constexpr unsigned kNumbers = 32;  // has numbered files
 constexpr unsigned kCaptions = 64;
+constexpr unsigned kVector = 128;
+constexpr unsigned kWhole = 256;  // cannot be joined of parts
 
 struct OutputKind {
   std::string_view ending;  ///< of its files' names, or the whole name if that has no dot
   Output (*set_up)(const OutputRequest& request);
   unsigned flags;
   std::string_view note = {};  ///< behind its name in messages
+  int max_frame_rate = 0;      ///< 0 if there is no limit
 
   bool is_file() const { return ending.starts_with('.'); }
   bool has(unsigned wanted) const { return (flags & wanted) == wanted; }
@@ -47,18 +50,20 @@ constexpr std::array kOutputKinds = {
     OutputKind{".mp4", mp4_output, kPictures | kSettings | kSound | kCaptions},
     OutputKind{".mov", by_module<&AvModule::mov_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
-    OutputKind{".gif", gif_output, kPictures | kPlays},
+    OutputKind{".gif", gif_output, kPictures | kPlays, "", kMaxFrameRate_gif},
     OutputKind{".apng", apng_output, kPictures | kAlpha | kPlays},
-    OutputKind{".webp", by_module<&AvModule::webp_output>, kPictures | kAlpha | kPlays},
+    OutputKind{".webp", by_module<&AvModule::webp_output>, kPictures | kAlpha | kPlays, "",
+               kMaxFrameRate_webp},
     OutputKind{".png", png_output, kPictures | kAlpha | kNumbers,
                " with a number field such as %06d"},
-    OutputKind{".svg", svg_output, kPictures | kAlpha | kNumbers, " likewise"},
-    OutputKind{".pdf", pdf_output, kPictures | kAlpha, " (a page for each frame)"},
+    OutputKind{".svg", svg_output, kPictures | kAlpha | kNumbers | kVector, " likewise"},
+    OutputKind{".pdf", pdf_output, kPictures | kAlpha | kVector | kWhole,
+               " (a page for each frame)"},
     OutputKind{".y4m", y4m_output, kPictures},
-    OutputKind{"-", y4m_output, kPictures, " (y4m on standard output)"},
+    OutputKind{"-", y4m_output, kPictures | kWhole, " (y4m on standard output)"},
     OutputKind{".framehash", by_module<&AvModule::framehash_output>, kPictures | kAlpha},
-    OutputKind{"null", null_output, kAlpha},
-    OutputKind{".wav", wav_output, kSound | kAlpha, " (sound alone)"},
+    OutputKind{"null", null_output, kAlpha | kWhole},
+    OutputKind{".wav", wav_output, kSound | kAlpha | kWhole, " (sound alone)"},
 };
 
 /// Null if there is none.
@@ -67,6 +72,11 @@ const OutputKind* find_kind(std::string_view output) {
     if (kind.is_file() ? has_ending(output, kind.ending) : output == kind.ending) return &kind;
   }
   return nullptr;
+}
+
+bool is_of_kind(std::string_view output, unsigned flags) {
+  const OutputKind* const kind = find_kind(output);
+  return kind != nullptr && kind->has(flags);
 }
 
 /// The kinds with these flags, as a message lists them.
@@ -183,10 +193,9 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 
 bool is_sound_alone(const std::string& name) { return has_ending(name, ".wav"); }
 
-bool has_numbers(const std::string& name) {
-  const OutputKind* const kind = find_kind(name);
-  return kind != nullptr && kind->has(kNumbers);
-}
+bool has_numbers(const std::string& name) { return is_of_kind(name, kNumbers); }
+bool is_vector(const std::string& name) { return is_of_kind(name, kVector); }
+bool has_parts(const std::string& name) { return !is_of_kind(name, kWhole); }
 
 bool takes_sound(const std::string& name) {
   const OutputKind* const kind = find_kind(name);
@@ -199,9 +208,9 @@ std::string no_sound_in(const std::string& name) {
 }
 
 std::optional<int> max_frame_rate_of(const std::string& name) {
-  if (has_ending(name, ".gif")) return kMaxFrameRate_gif;
-  if (has_ending(name, ".webp")) return kMaxFrameRate_webp;
-  return std::nullopt;
+  const OutputKind* const kind = find_kind(name);
+  if (kind == nullptr || kind->max_frame_rate == 0) return std::nullopt;
+  return kind->max_frame_rate;
 }
 
 void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name) {

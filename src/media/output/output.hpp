@@ -158,7 +158,8 @@ struct Output {
   /// The kind, what makes the bytes, and its version, in one line: packets of outputs with the same
   /// format, settings and signature can be mixed.
   std::string signature;
-  /// Makes an encoder for one worker; it must not outlive the output. Thread-safe.
+  /// Makes an encoder for one worker; it must not outlive the output. Thread-safe. There is none of
+  /// vectors: packets are SVG files, or, without `open`, frames are pages of a PDF file.
   std::function<std::unique_ptr<ChunkEncoder>()> make_encoder = {};
   /// A sink; it must not outlive the output.
   /// @throws UsageError if it cannot be opened; nothing is left behind then.
@@ -170,9 +171,6 @@ struct Output {
   /// Whether an encoder has to take() the frame before a chunk's first one, if there is one, ahead
   /// of begin().
   bool needs_frame_before = false;
-  /// Frames go in as they are drawn. There is no encoder: packets are SVG files. Without `open`,
-  /// frames are pages of a PDF file.
-  bool is_vector = false;
   std::vector<std::string> notes = {};  ///< as Rendered's
 };
 
@@ -191,6 +189,12 @@ bool is_sound_alone(const std::string& name);
 
 /// Whether an output of this name is numbered pictures.
 bool has_numbers(const std::string& name);
+
+/// Whether an output of this name holds vectors: `*.svg`, `*.pdf`.
+bool is_vector(const std::string& name);
+
+/// Whether an output of this name can be joined of parts.
+bool has_parts(const std::string& name);
 
 /// Whether an output of this name can have sound.
 bool takes_sound(const std::string& name);

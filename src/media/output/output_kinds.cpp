@@ -230,10 +230,7 @@ Output svg_output(const OutputRequest& request) {
       },
       [](const std::filesystem::path& path) { return has_bytes(path, 0, marked_head); },
       "</svg>\n"};
-  return {.frames_per_chunk = 16,
-          .signature = "svg",
-          .open = sequence_of(request, kind),
-          .is_vector = true};
+  return {.frames_per_chunk = 16, .signature = "svg", .open = sequence_of(request, kind)};
 }
 
 Output pdf_output(const OutputRequest& request) {
@@ -242,7 +239,7 @@ Output pdf_output(const OutputRequest& request) {
         "output: '{}': a PDF has all frames as its pages; leave '%' out, or write numbered *.svg",
         request.name));
   }
-  return {.signature = "pdf", .is_vector = true};
+  return {.signature = "pdf"};
 }
 
 Output y4m_output(const OutputRequest& request) {
