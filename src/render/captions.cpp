@@ -86,10 +86,10 @@ class CountWords {
   Integer said_ = 0;  ///< the last count that was given exactly
 };
 
-Cues cues_of_run(const Part& part, const Rational& frame_rate) {
-  const FilmRun& run = part.runs().front();
-  const std::vector<Integer> counts = part.counts(run);
-  CountWords words(shown(run, part), std::ranges::min(counts), frame_rate);
+Cues cues_of_run(const SeenSegment& seen, const Rational& frame_rate) {
+  const FilmRun& run = seen.runs().front();
+  const std::vector<Integer> counts = seen.counts(run);
+  CountWords words(shown(run, seen), std::ranges::min(counts), frame_rate);
   const std::string title = own_title(run.scene());
   const Rational title_frames = title.empty() ? Rational(0) : reading_frames(title, frame_rate);
   Cues cues;
@@ -105,11 +105,11 @@ Cues cues_of_run(const Part& part, const Rational& frame_rate) {
 }
 
 /// Counts that are reached before the text before them is read are added to it.
-Cues cues_of_comparison(const Part& part, const Rational& frame_rate) {
-  Cues cues = {{0, names_of(part, "\n")}};
-  for (const FilmRun& run : part.runs()) {
-    const std::vector<Integer> counts = part.counts(run);
-    const ShownRun end = shown(run, part);
+Cues cues_of_comparison(const SeenSegment& seen, const Rational& frame_rate) {
+  Cues cues = {{0, names_of(seen, "\n")}};
+  for (const FilmRun& run : seen.runs()) {
+    const std::vector<Integer> counts = seen.counts(run);
+    const ShownRun end = shown(run, seen);
     std::string& text = cues[std::ranges::find(counts, end.at_end) - counts.begin()];
     if (!text.empty()) text += "\n";
     text += fmt::format("{}: {}", name_of(run), last_count(end));
@@ -130,11 +130,11 @@ Cues card_cues(const Card& card, const Rational& frame_rate) {
   return cues;
 }
 
-/// By their frames from the part's beginning on.
-Cues cues_of(const Part& part, const Rational& frame_rate) {
-  if (part.runs().empty()) return card_cues(part.segment().card(), frame_rate);
-  return part.runs().size() == 1 ? cues_of_run(part, frame_rate)
-                                 : cues_of_comparison(part, frame_rate);
+/// By their frames from the beginning of the segment on.
+Cues cues_of(const SeenSegment& seen, const Rational& frame_rate) {
+  if (seen.runs().empty()) return card_cues(seen.segment().card(), frame_rate);
+  return seen.runs().size() == 1 ? cues_of_run(seen, frame_rate)
+                                 : cues_of_comparison(seen, frame_rate);
 }
 
 /// The text as WebVTT has it.
@@ -154,10 +154,10 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate, char point
 /// By their frames in the film.
 Cues cues_of(const Film& film) {
   Cues cues;
-  for (const Part& part : parts_of(film)) {
-    for (auto& [frame, text] : cues_of(part, film.view().frame_rate)) {
+  for (const SeenSegment& seen : seen_segments(film)) {
+    for (auto& [frame, text] : cues_of(seen, film.view().frame_rate)) {
       if (cues.empty() || std::prev(cues.end())->second != text) {
-        cues[part.placed.first_seen() + frame] = text;
+        cues[seen.placed.first_seen() + frame] = text;
       }
     }
   }
@@ -165,8 +165,8 @@ Cues cues_of(const Film& film) {
 }
 
 /// @param end  of the last cue
-std::string file_of(const Cues& cues, std::int64_t end, const Rational& frame_rate,
-                    CaptionFormat format = CaptionFormat::webvtt) {
+std::string caption_file(const Cues& cues, std::int64_t end, const Rational& frame_rate,
+                         CaptionFormat format = CaptionFormat::webvtt) {
   const bool is_vtt = format == CaptionFormat::webvtt;
   std::string text = is_vtt ? "WEBVTT\n\n" : "";
   int number = 0;
@@ -185,27 +185,27 @@ std::string file_of(const Cues& cues, std::int64_t end, const Rational& frame_ra
 }
 
 /// Those of some frames, numbered from the first of them on.
-Cues part_of(const Cues& cues, const FrameRange& frames) {
-  Cues part;
+Cues cues_within(const Cues& cues, const FrameRange& frames) {
+  Cues within;
   // The first cue may have begun before.
   for (auto cue = std::prev(cues.upper_bound(frames.first)); cue != cues.upper_bound(frames.last);
        ++cue) {
-    part[std::max(cue->first, frames.first) - frames.first] = cue->second;
+    within[std::max(cue->first, frames.first) - frames.first] = cue->second;
   }
-  return part;
+  return within;
 }
 
 }  // namespace
 
 std::vector<Caption> captions_of(const Film& film, const FrameRange& frames) {
   std::vector<Caption> captions;
-  for (const auto& [frame, text] : part_of(cues_of(film), frames))
+  for (const auto& [frame, text] : cues_within(cues_of(film), frames))
     captions.push_back({frame, text});
   return captions;
 }
 
 std::string captions(const Film& film, CaptionFormat format) {
-  return file_of(cues_of(film), film.frame_count(), film.view().frame_rate, format);
+  return caption_file(cues_of(film), film.frame_count(), film.view().frame_rate, format);
 }
 
 std::vector<std::string> shot_captions(const Film& film) {
@@ -215,15 +215,16 @@ std::vector<std::string> shot_captions(const Film& film) {
   std::vector<std::string> files;
   for (std::size_t i = 0; i < film.segments().size(); ++i) {
     const FrameRange shot = film.shot(i);
-    files.push_back(file_of(part_of(cues, shot), shot.count() + second, frame_rate));
+    files.push_back(caption_file(cues_within(cues, shot), shot.count() + second, frame_rate));
   }
   return files;
 }
 
 std::string chapters(const Film& film) {
   Cues titles;
-  for (const Part& part : parts_of(film)) titles[part.placed.first_seen()] = name_of(part);
-  return file_of(titles, film.frame_count(), film.view().frame_rate);
+  for (const SeenSegment& seen : seen_segments(film))
+    titles[seen.placed.first_seen()] = name_of(seen);
+  return caption_file(titles, film.frame_count(), film.view().frame_rate);
 }
 
 }  // namespace piblocks

@@ -13,7 +13,7 @@
 
 namespace piblocks {
 
-std::vector<Integer> Part::counts(const FilmRun& run) const {
+std::vector<Integer> SeenSegment::counts(const FilmRun& run) const {
   std::vector<Integer> shown;
   for (std::int64_t frame = begin; frame < end; ++frame) {
     shown.push_back(run.log().count_at(segment().schedule()->time_of(frame)));
@@ -21,8 +21,8 @@ std::vector<Integer> Part::counts(const FilmRun& run) const {
   return shown;
 }
 
-std::vector<Part> parts_of(const Film& film) {
-  std::vector<Part> parts;
+std::vector<SeenSegment> seen_segments(const Film& film) {
+  std::vector<SeenSegment> parts;
   for (const PlacedSegment& placed : film.segments()) {
     const std::int64_t begin = placed.first_seen();
     if (!parts.empty()) parts.back().end = begin - parts.back().placed.first_frame;
@@ -31,10 +31,10 @@ std::vector<Part> parts_of(const Film& film) {
   return parts;
 }
 
-ShownRun shown(const FilmRun& run, const Part& part) {
+ShownRun shown(const FilmRun& run, const SeenSegment& seen) {
   const Log& log = run.log();
-  const std::int64_t last = std::clamp(part.segment().furthest_frame(), part.begin, part.end - 1);
-  const Integer at_end = log.count_at(part.segment().schedule()->time_of(last));
+  const std::int64_t last = std::clamp(seen.segment().furthest_frame(), seen.begin, seen.end - 1);
+  const Integer at_end = log.count_at(seen.segment().schedule()->time_of(last));
   const bool is_known = log.knows_last() || !log.has(at_end + 1);
   return {run.scene(), log, at_end, is_known ? std::optional(log.last()) : std::nullopt};
 }
@@ -102,18 +102,18 @@ std::string name_of(const FilmRun& run) {
   return title.empty() ? bodies_name(run.log()) : title;
 }
 
-std::string names_of(const Part& part, std::string_view between) {
+std::string names_of(const SeenSegment& seen, std::string_view between) {
   std::vector<std::string> names;
-  for (const FilmRun& run : part.runs()) names.push_back(name_of(run));
+  for (const FilmRun& run : seen.runs()) names.push_back(name_of(run));
   return fmt::format("{}", fmt::join(names, between));
 }
 
-std::string name_of(const Part& part) {
-  if (part.runs().empty()) return words_of(part.segment().card().lines, " / ");
-  const Scene& scene = part.runs().front().scene();
-  const bool has_diagram = part.runs().size() == 1 && !scene.show.panels.empty();
-  if (!has_diagram || !own_title(scene).empty()) return names_of(part, ", ");
-  return fmt::format("{}: {}", names_of(part, ", "), exact_text(scene.show.panels.front()));
+std::string name_of(const SeenSegment& seen) {
+  if (seen.runs().empty()) return words_of(seen.segment().card().lines, " / ");
+  const Scene& scene = seen.runs().front().scene();
+  const bool has_diagram = seen.runs().size() == 1 && !scene.show.panels.empty();
+  if (!has_diagram || !own_title(scene).empty()) return names_of(seen, ", ");
+  return fmt::format("{}: {}", names_of(seen, ", "), exact_text(scene.show.panels.front()));
 }
 
 std::string words_of(const std::vector<std::string>& lines, std::string_view between) {

@@ -14,7 +14,7 @@
 namespace piblocks {
 
 /// A segment and those of its frames that show it: of a fade each neighbour has one half.
-struct Part {
+struct SeenSegment {
   const PlacedSegment& placed;
   std::int64_t begin;
   std::int64_t end;
@@ -25,9 +25,9 @@ struct Part {
   std::vector<Integer> counts(const FilmRun& run) const;
 };
 
-std::vector<Part> parts_of(const Film& film);
+std::vector<SeenSegment> seen_segments(const Film& film);
 
-/// A run, and the collisions that a part of the film counts.
+/// A run, and the collisions that a segment of the film counts.
 struct ShownRun {
   const Scene& scene;
   const Log& log;
@@ -39,7 +39,7 @@ struct ShownRun {
   bool is_endless() const { return piblocks::is_endless(log); }
 };
 
-ShownRun shown(const FilmRun& run, const Part& part);
+ShownRun shown(const FilmRun& run, const SeenSegment& seen);
 
 /// "1 collision", "1,000 collisions"
 std::string collisions(const Integer& count);
@@ -74,12 +74,12 @@ std::string own_title(const Scene& scene);
 /// The same, or the bodies.
 std::string name_of(const FilmRun& run);
 
-/// The names of all runs of a part.
-std::string names_of(const Part& part, std::string_view between);
+/// The names of all runs of a seen.
+std::string names_of(const SeenSegment& seen, std::string_view between);
 
-/// What a part is called in a list of them: the words of its card, or the names of its runs; of one
+/// What a segment is called in a list of them: the words of its card, or the names of its runs; of one
 /// run without a title also its diagram's.
-std::string name_of(const Part& part);
+std::string name_of(const SeenSegment& seen);
 
 /// The lines of a card.
 std::string words_of(const std::vector<std::string>& lines, std::string_view between);

@@ -89,46 +89,46 @@ std::string describe_briefly(const ShownRun& run) {
   return text;
 }
 
-std::string describe(const Part& part) {
-  const auto runs = part.runs();
+std::string describe(const SeenSegment& seen) {
+  const auto runs = seen.runs();
   if (runs.empty()) {
-    const auto& [lines, length_s, becomes] = part.segment().card();
+    const auto& [lines, length_s, becomes] = seen.segment().card();
     return fmt::format("“{}”.", words_of(becomes.empty() ? lines : becomes, " / "));
   }
   std::vector<std::string> sentences;
   if (runs.size() > 1) sentences.push_back(fmt::format("{} runs at once.", runs.size()));
-  for (const FilmRun& run : runs) sentences.push_back(describe_briefly(shown(run, part)));
+  for (const FilmRun& run : runs) sentences.push_back(describe_briefly(shown(run, seen)));
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 }  // namespace
 
 std::string title_of(const Film& film) {
-  const Part part = parts_of(film).front();
-  if (part.runs().empty()) return with_single_blanks(part.segment().card().lines.front());
-  const FilmRun& run = part.runs().front();
-  if (part.runs().size() > 1 || !own_title(run.scene()).empty()) return names_of(part, ", ");
-  const ShownRun end = shown(run, part);
+  const SeenSegment seen = seen_segments(film).front();
+  if (seen.runs().empty()) return with_single_blanks(seen.segment().card().lines.front());
+  const FilmRun& run = seen.runs().front();
+  if (seen.runs().size() > 1 || !own_title(run.scene()).empty()) return names_of(seen, ", ");
+  const ShownRun end = shown(run, seen);
   // Of two blocks all are known, also those that the film does not show.
   const Integer& count = run.log().pair() ? *end.total : end.at_end;
   return fmt::format("{}: {}", bodies_name(run.log()), all_collisions(count, end.is_endless()));
 }
 
 std::string describe_film(const Film& film) {
-  const std::vector<Part> parts = parts_of(film);
+  const std::vector<SeenSegment> parts = seen_segments(film);
   if (film.scene() != nullptr) {
     return describe_scene(shown(film.scene()->runs().front(), parts.front()));
   }
   std::string text = fmt::format("A film in {}.", counted(std::ssize(parts), "part"));
-  for (int number = 1; const Part& part : parts) {
-    text += fmt::format(" Part {}. {}", number++, describe(part));
+  for (int number = 1; const SeenSegment& seen : parts) {
+    text += fmt::format(" Part {}. {}", number++, describe(seen));
   }
   return text;
 }
 
 std::vector<std::string> describe_segments(const Film& film) {
   std::vector<std::string> texts;
-  for (const Part& part : parts_of(film)) texts.push_back(describe(part));
+  for (const SeenSegment& seen : seen_segments(film)) texts.push_back(describe(seen));
   return texts;
 }
 

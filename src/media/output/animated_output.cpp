@@ -11,7 +11,7 @@ void AnimationEncoder::begin(std::int64_t first_frame) {
 
 void AnimationEncoder::encode() {
   if (next_frame_ == 0) picture_.mark_all();
-  const bool has_image = picture_.has_changed() || next_frame_ % longest_ == 0;
+  const bool has_image = picture_.has_changed() || next_frame_ % most_frames_ == 0;
   chunk_.push_back({.bytes = has_image ? encode_image(picture_) : Bytes(),
                     .pts = next_frame_,
                     .dts = next_frame_});

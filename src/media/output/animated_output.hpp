@@ -25,7 +25,7 @@ class AnimationEncoder : public ChunkEncoder {
   /// @param longest  frames for which one image can be shown, at least 1. Every frame whose number
   ///                 is a multiple of it has an image, so that no sink needs to make one.
   AnimationEncoder(const VideoFormat& format, std::int64_t longest)
-      : ChunkEncoder(format), longest_(longest), picture_(format.width_px, format.height_px) {}
+      : ChunkEncoder(format), most_frames_(longest), picture_(format.width_px, format.height_px) {}
   void begin(std::int64_t first_frame) final;
   void encode() final;
   EncodedChunk finish() final { return std::exchange(chunk_, {}); }
@@ -37,7 +37,7 @@ class AnimationEncoder : public ChunkEncoder {
   /// The bytes of what has changed in a picture. In that of frame 0, everything has.
   virtual Bytes encode_image(const ChangedPicture& picture) = 0;
 
-  std::int64_t longest_;
+  std::int64_t most_frames_;
   ChangedPicture picture_;
   std::int64_t next_frame_ = 0;
   EncodedChunk chunk_;
