@@ -77,8 +77,8 @@ std::string name_of(const FilmRun& run);
 /// The names of all runs of a seen.
 std::string names_of(const SeenSegment& seen, std::string_view between);
 
-/// What a segment is called in a list of them: the words of its card, or the names of its runs; of one
-/// run without a title also its diagram's.
+/// What a segment is called in a list of them: the words of its card, or the names of its runs; of
+/// one run without a title also its diagram's.
 std::string name_of(const SeenSegment& seen);
 
 /// The lines of a card.

@@ -215,13 +215,14 @@ SoundWork sound_of(const Plan& plan, FilmSound* sound, const OnProgress& on_prog
     on_progress({samples * frames / plan.sound->size, frames});
   };
   SoundWork work;
-  if (sound == nullptr) {
-    work.samples = std::make_unique<FilmSound>(plan.film, plan.frames, stop, report);
-  } else {
+  SampleSource* samples = sound;
+  if (sound != nullptr) {
     sound->begin(plan.frames);
+  } else {
+    work.samples = std::make_unique<FilmSound>(plan.film, plan.frames, stop, report);
+    samples = work.samples.get();
   }
-  SampleSource& samples = sound == nullptr ? *work.samples : *sound;
-  work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(samples), clock);
+  work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*samples), clock);
   return work;
 }
 
