@@ -72,7 +72,8 @@ struct RenderJob {
   /// may replace files that no earlier run has made.
   bool overwrite = false;
   /// Of numbered pictures: keeps those that an unfinished run of the same job has left, and leaves
-  /// its own for the next one if it does not finish. No other output can be resumed.
+  /// its own for the next one if it does not finish. A shard that is there already is kept. No
+  /// other output can be resumed.
   bool resume = false;
   /// Renders these frames only: a film of its own or, of numbered pictures, those that a rendering
   /// of the whole film would number alike; its other pictures stay. No part, page or bundle has it.

@@ -90,7 +90,8 @@ void add_run_options(Command& command) {
                     "within a second; 3 are held to be harmless (WCAG 2.3.1)");
   command.add_flag("--resume",
                    "Keep the pictures of a sequence that an interrupted run of the\n"
-                   "same command has left; if interrupted, leave what there is");
+                   "same command has left; if interrupted, leave what there is.\n"
+                   "With --part, keep a part that has been made already");
   add_overwrite(command);
   command.add_flag("--profile", "Print what each stage cost, on standard error");
   command.add_flag("--quiet", "Print nothing but errors, and what --profile asks for");

@@ -151,14 +151,20 @@ ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
   return {chunks * (shard->number - 1) / shard->count, chunks * shard->number / shard->count};
 }
 
-std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
-  if (!job.shard && !has_numbers(job.output)) return plan.output.open({plan.chunks.frame_count});
+ShardHeader header_of_shard(const RenderJob& job, const Plan& plan) {
   ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
+  header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
+  return header;
+}
+
+std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
   if (job.shard) {
-    header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
-    return open_shard(shard_name(job.output, *job.shard), header, job.overwrite);
+    return open_shard(shard_name(job.output, *job.shard), header_of_shard(job, plan),
+                      job.overwrite);
   }
+  if (!has_numbers(job.output)) return plan.output.open({plan.chunks.frame_count});
   // For a later --resume.
+  ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
   header.emplace_back("name", std::filesystem::path(job.output).filename());
   header.emplace_back("first-frame", std::to_string(plan.frames.first));
   return plan.output.open({plan.chunks.frame_count, {text_of(header), job.resume}});
@@ -289,14 +295,19 @@ std::function<EncodedWork(const FrameRange&, const std::stop_token&)> make_worke
 Rendered render_chunks(const RenderJob& job, const Plan& plan, const OnProgress& on_progress,
                        const std::stop_token& stop, FilmSound* sound) {
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
-  const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
-  const std::int64_t kept = sink->kept_frames();
-  const std::int64_t first = std::max(range.begin, plan.chunks.ended_by(kept));
-  std::atomic<std::int64_t> frames_done = kept;
   Rendered rendered{plan.output.has_frames
                         ? plan.chunks.begin(range.end) - plan.chunks.begin(range.begin)
                         : plan.frames.count(),
                     {}};
+  if (job.resume && job.shard &&
+      has_shard(shard_name(job.output, *job.shard), header_of_shard(job, plan))) {
+    rendered.aftermath = "kept what an earlier run has made";
+    return rendered;
+  }
+  const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
+  const std::int64_t kept = sink->kept_frames();
+  const std::int64_t first = std::max(range.begin, plan.chunks.ended_by(kept));
+  std::atomic<std::int64_t> frames_done = kept;
   FramesReport report(frames_done, rendered.frame_count, on_progress);
   report();
   StepClock clock(job.profile, Step::mux);
@@ -381,13 +392,10 @@ Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
   if (job.frames && (job.shard || job.bundle || is_page(job.output))) {
     throw UsageError("frames: parts, pages and bundles are of the whole film; leave frames out");
   }
-  if (job.resume && job.shard) {
-    throw UsageError("resume: a part is whole once it is done; leave resume out");
-  }
-  if (job.resume && !has_numbers(job.output)) {
+  if (job.resume && !job.shard && !has_numbers(job.output)) {
     throw UsageError(fmt::format(
-        "resume: only pictures of a sequence are kept, and '{}' is none; leave resume out, or "
-        "render parts of a video (--part), each of which is kept once it is done",
+        "resume: only pictures of a sequence and parts of a video are kept, and '{}' is neither; "
+        "render it in parts (--part), or leave resume out",
         job.output));
   }
   if ((job.bundle || is_page(job.output)) && (job.encoder.plays || job.encoder.start_number)) {

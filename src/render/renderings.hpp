@@ -38,6 +38,10 @@ Rendered render_pdf(const RenderJob& job, const Film& film, const FrameRange& fr
 /// What the bytes of a rendering depend on: the header of all its shards, without their number.
 ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count);
 
+/// Whether this part has been rendered already, whole, with this header. A damaged one has not.
+/// @throws UsageError naming what differs if the file is of another job.
+bool has_shard(const std::string& path, const ShardHeader& header);
+
 /// Renders the job's video into the bundle's folder, with poster.png, captions.vtt, alt.txt,
 /// latex.tex and reveal.html beside it; of a storyboard the video and the last picture of each
 /// shot, chapters.vtt and impress.fodp, too.

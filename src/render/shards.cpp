@@ -268,6 +268,25 @@ ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t fr
   return header;
 }
 
+bool has_shard(const std::string& path, const ShardHeader& header) {
+  if (!is_shard_file(path)) return false;
+  ShardReader reader(path);
+  std::string name = difference(reader.header(), header);
+  if (name.empty() && reader.header() != header) name = "part";  // of a file that was renamed
+  if (!name.empty()) {
+    throw UsageError(
+        fmt::format("resume: '{}' is of another job: it differs in {}; give the same command, or "
+                    "leave resume out to replace the part",
+                    path, name));
+  }
+  try {
+    while (reader.next()) continue;
+    return true;
+  } catch (const IoError&) {
+    return false;  // damaged
+  }
+}
+
 Rendered join(const std::vector<std::string>& parts, const std::string& output,
               const std::stop_token& stop, bool overwrite) {
   if (parts.empty()) throw UsageError("join: no parts are given");

@@ -61,6 +61,42 @@ TEST_F(PartTest, ADamagedPartFailsAndLeavesTheOldFile) {
   EXPECT_EQ(contents("b.mp4"), "old");
 }
 
+TEST_F(PartTest, ResumingKeepsAPartThatIsWhole) {
+  const Arguments resume = kRenderPart + Arguments{"--part", "2/3", "--resume"};
+  const std::string name = "a.mp4.part-2-of-3";
+  EXPECT_FALSE(contains(piblocks(resume).err, "kept"));
+  const std::string part = contents(name);
+  EXPECT_TRUE(piblocks(resume).err.ends_with("; kept what an earlier run has made\n"));
+  EXPECT_TRUE(contents(name) == part);
+  for (const std::size_t size : {part.size() / 2, part.size() - 1}) {
+    write(name, part.substr(0, size));
+    EXPECT_FALSE(contains(piblocks(resume).err, "kept")) << "damaged";
+    EXPECT_TRUE(contents(name) == part);
+  }
+  std::string changed = part;
+  changed[part.size() / 2] ^= 1;
+  write(name, changed);
+  EXPECT_FALSE(contains(piblocks(resume).err, "kept")) << "damaged";
+  EXPECT_TRUE(contents(name) == part);
+}
+
+TEST_F(PartTest, ResumingRefusesAPartOfAnotherJob) {
+  const Arguments resume = kRenderPart + Arguments{"--part", "2/3", "--resume"};
+  const std::string name = "a.mp4.part-2-of-3";
+  output_of(kRenderPart + Arguments{"--quiet", "--part", "2/3", "--digits", "2"});
+  const std::string other = contents(name);
+  EXPECT_TRUE(contains(refusal(resume, 2), fmt::format("'{}' is of another job: it differs in "
+                                                       "red.mass; give the same command",
+                                                       name)));
+  EXPECT_TRUE(contents(name) == other);
+  output_of(kRenderPart + Arguments{"--quiet", "--part", "1/3"});
+  write(name, contents("a.mp4.part-1-of-3"));
+  EXPECT_TRUE(contains(refusal(resume, 2), "it differs in part;"));
+  write(name, "a letter");
+  EXPECT_TRUE(contains(refusal(resume, 2), "is there, but not a part file"));
+  EXPECT_EQ(contents(name), "a letter");
+}
+
 /// The line of the table that starts with this name, cut into words.
 std::vector<std::string> row(const std::string& table, const std::string& name) {
   for (const std::string& line : lines(table)) {

@@ -215,8 +215,6 @@ TEST_F(ResumedTest, IsASequenceOfPictures) {
     EXPECT_TRUE(
         contains(run(small_render({"-o", film, "--resume"})).err, "only pictures of a sequence"));
   }
-  const CommandResult part = run(small_render({"-o", "a.mp4", "--resume", "--part", "1/2"}));
-  EXPECT_TRUE(contains(part.err, "a part is whole once it is done")) << part.err;
   EXPECT_TRUE(files().empty());
 }
 

@@ -82,13 +82,11 @@ class ShardSink final : public FrameSink {
   OutputFile file_;
 };
 
-/// Whether a file of this name exists that is not a part file of any version.
-bool is_another_file(const std::string& path) {
-  const std::optional<std::string> start = beginning_of(path, kAnyMagic.size());
-  return start && *start != kAnyMagic;
-}
-
 }  // namespace
+
+bool is_shard_file(const std::string& path) {
+  return beginning_of(path, kAnyMagic.size()) == kAnyMagic;
+}
 
 std::string text_of(const ShardHeader& header) {
   std::string text;
@@ -98,7 +96,7 @@ std::string text_of(const ShardHeader& header) {
 
 std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header,
                                       bool overwrite) {
-  if (!overwrite && is_another_file(path)) {
+  if (!overwrite && beginning_of(path, 1) && !is_shard_file(path)) {
     throw UsageError(fmt::format(
         "part: '{}' is there, but not a part file; use another name, or --overwrite to replace it",
         path));

@@ -24,6 +24,9 @@ using ShardHeader = std::vector<std::pair<std::string, std::string>>;
 /// The lines "NAME: VALUE".
 std::string text_of(const ShardHeader& header);
 
+/// Whether there is a file of this name that is a part file of any version.
+bool is_shard_file(const std::string& path);
+
 /// A sink that stores chunks as they are.
 /// @param overwrite  whether it may replace a file that is no part file.
 /// @throws UsageError if the file cannot be opened, would replace another kind of file, or has a

@@ -382,7 +382,8 @@ class Scene:
         :param overwrite: lets pictures of a sequence, and files of a bundle or part, replace files
             that no earlier run has made.
         :param resume: keeps the numbered pictures that an interrupted run of the same scene and
-            options has left, and leaves those of this one if it is interrupted.
+            options has left, and leaves those of this one if it is interrupted;
+            with ``part``, keeps the part if it has been made already.
         :raises UsageError: DrawError, MediaError, IoError, SimulationError, KeyboardInterrupt
         """
         given = {
