@@ -50,49 +50,37 @@ class Encoder::Impl {
  public:
   explicit Impl(const Config& config)
       : level_(level_of(config)),
-        config_(config),
         headers_(write_parameter_sets(config, level_.idc)),
-        coder_(config),
-        changed_(macroblocks_along(config.width_px), macroblocks_along(config.height_px)) {
-    add({0, 0, config.width_px, config.height_px});
-  }
+        coder_(config) {}
 
   const std::vector<std::uint8_t>& headers() const { return headers_; }
   const Level& level() const { return level_; }
   void restart() { is_begun_ = false; }
-  CodedPicture encode(const Planes& source, std::span<const Rect> changed, PictureType type,
-                      Bytes& unit) {
-    for (const Plane& plane : {source.y, source.cb, source.cr}) {
+  void take(const Planes& part, const Rect& rect) {
+    for (const Plane& plane : {part.y, part.cb, part.cr}) {
       if (plane.samples == nullptr) throw Error("h264: a plane has no samples");
     }
-    for (const Rect& rect : changed) add(rect);
+    for (const int number : {rect.x_px, rect.y_px, rect.width_px, rect.height_px}) {
+      if (number >= 0 && number % 2 == 0) continue;
+      throw Error(text("h264: a rectangle has the number ", number, ", which is odd or below 0"));
+    }
+    coder_.take(part, rect);
+  }
+  CodedPicture encode(PictureType type, Bytes& unit) {
     if (!is_begun_) type = PictureType::idr;
     is_begun_ = true;
     if (type == PictureType::idr) {
-      coder_.encode_idr(source, changed_, unit);
+      coder_.encode_idr(unit);
     } else {
-      coder_.encode_p(source, changed_, unit);
+      coder_.encode_p(unit);
     }
-    changed_.clear();
     return {type, coder_.transformed_macroblocks()};
   }
 
  private:
-  void add(const Rect& rect) {
-    const auto clamp = [](std::int64_t value, int most) {
-      return static_cast<int>(std::clamp<std::int64_t>(value, 0, most));
-    };
-    const int left = clamp(rect.x_px, config_.width_px);
-    const int above = clamp(rect.y_px, config_.height_px);
-    const int right = clamp(std::int64_t{rect.x_px} + rect.width_px, config_.width_px);
-    const int below = clamp(std::int64_t{rect.y_px} + rect.height_px, config_.height_px);
-    changed_.add(left, above, right - left, below - above);
-  }
   const Level& level_;
-  Config config_;
   Bytes headers_;
   PictureEncoder coder_;
-  MacroblockSet changed_;
   bool is_begun_ = false;
 };
 
@@ -103,9 +91,9 @@ std::span<const std::uint8_t> Encoder::headers() const { return impl_->headers()
 int Encoder::level_idc() const { return impl_->level().idc; }
 void Encoder::restart() { impl_->restart(); }
 
-CodedPicture Encoder::encode(const Planes& source, std::span<const Rect> changed, PictureType type,
-                             std::vector<std::uint8_t>& unit) {
-  return impl_->encode(source, changed, type, unit);
+void Encoder::take(const Planes& part, const Rect& rect) { impl_->take(part, rect); }
+CodedPicture Encoder::encode(PictureType type, std::vector<std::uint8_t>& unit) {
+  return impl_->encode(type, unit);
 }
 
 }  // namespace piblocks::h264

@@ -1,5 +1,5 @@
 // An H.264 encoder for pictures of which little changes: drawings, diagrams, screens.
-// In: pictures in 4:2:0, and the rectangles of each that may have changed. Out: a stream of access
+// In: the rectangles of each picture, in 4:2:0, that may have changed. Out: a stream of access
 // units, Constrained Baseline, in the byte stream format of annex B.
 //
 // Users of the library need this header, and mp4_writer.hpp for MP4 files. The
@@ -38,8 +38,8 @@ struct Plane {
   std::ptrdiff_t stride_bytes = 0;  ///< from row to row
 };
 
-/// A picture in 4:2:0: chroma planes have half the width and half the height. BT.709, limited
-/// range.
+/// A picture in 4:2:0, or a part of one: chroma planes have half the width and half the height.
+/// BT.709, limited range.
 struct Planes {
   Plane y;
   Plane cb;
@@ -81,15 +81,16 @@ class Encoder {
   /// rate of the pictures, whatever their bytes.
   int level_idc() const;
 
-  /// Encodes the next picture. The first of a stream is an IDR picture, whatever is asked for.
-  /// @param source   the caller's planes of width_px x height_px pixels; only read, and not kept
-  /// @param changed  covers every pixel that differs from the last picture; may be coarse. The very
-  ///                 first picture is taken whole. What reaches out of the picture is cut off.
-  /// @param unit     the caller's; its bytes are replaced by the access unit's, which begins with a
-  ///                 start code of four bytes. Kept from picture to picture, it is allocated once.
-  /// @throws Error if a plane has no samples
-  CodedPicture encode(const Planes& source, std::span<const Rect> changed, PictureType type,
-                      std::vector<std::uint8_t>& unit);
+  /// Takes a part of the next picture, whose other pixels are those of the picture before. All that
+  /// differs has to be taken, of the very first picture everything; more does no harm.
+  /// @param part  the samples of the rectangle alone; only read, and not kept
+  /// @param rect  of even numbers, from 0; what reaches out of the picture is cut off
+  /// @throws Error if a plane has no samples, or a number of the rectangle is odd or below 0
+  void take(const Planes& part, const Rect& rect);
+  /// Encodes the picture. The first of a stream is an IDR picture, whatever is asked for.
+  /// @param unit  the caller's; its bytes are replaced by the access unit's, which begins with a
+  ///              start code of four bytes. Kept from picture to picture, it is allocated once.
+  CodedPicture encode(PictureType type, std::vector<std::uint8_t>& unit);
 
   /// Makes the stream begin anew: the next picture is an IDR picture, whose bytes depend on its
   /// samples, and on whether the one before was an IDR picture, too (7.4.3), alone. Nothing has to

@@ -20,24 +20,38 @@ bool is_plane_equal(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::u
   return true;
 }
 
-/// Takes a square of samples. @returns whether that changes anything
+/// The samples of a plane from (left, above) to before (right, below).
+struct Area {
+  int left, above, right, below;
+};
+
+/// Those of a macroblock's plane that lie in the rectangle.
 template <int side>
-bool update_plane(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8_t* to,
-                  std::ptrdiff_t to_stride) {
-  if (is_plane_equal<side>(from, from_stride, to, to_stride)) return false;
-  copy_plane<side>(from, from_stride, to, to_stride);
-  return true;
+Area common_area(int x_mb, int y_mb, const Rect& rect) {
+  constexpr int kStep = kLumaSide / side;
+  return {std::max(side * x_mb, rect.x_px / kStep), std::max(side * y_mb, rect.y_px / kStep),
+          std::min(side * (x_mb + 1), (rect.x_px + rect.width_px) / kStep),
+          std::min(side * (y_mb + 1), (rect.y_px + rect.height_px) / kStep)};
 }
 
-/// The macroblock's part of a plane of width x height samples, continued beyond its edges.
+/// @param from, to  the upper left sample of the area. @returns whether that changes anything
 template <int side>
-void load_continued(const Plane& plane, int x_mb, int y_mb, int width, int height,
-                    std::uint8_t* to) {
-  for (int y = 0; y < side; ++y) {
-    const std::uint8_t* const row =
-        plane.samples + std::min(side * y_mb + y, height - 1) * plane.stride_bytes;
-    for (int x = 0; x < side; ++x) *to++ = row[std::min(side * x_mb + x, width - 1)];
+bool update_area(const Area& area, const std::uint8_t* from, std::ptrdiff_t from_stride,
+                 std::uint8_t* to, std::ptrdiff_t to_stride) {
+  const auto width = static_cast<std::size_t>(area.right - area.left);
+  const int height = area.below - area.above;
+  if (width == side && height == side) {
+    if (is_plane_equal<side>(from, from_stride, to, to_stride)) return false;
+    copy_plane<side>(from, from_stride, to, to_stride);
+    return true;
   }
+  bool differs = false;
+  for (int y = 0; y < height; ++y, from += from_stride, to += to_stride) {
+    if (std::memcmp(from, to, width) == 0) continue;
+    std::memcpy(to, from, width);
+    differs = true;
+  }
+  return differs;
 }
 
 }  // namespace
@@ -71,29 +85,37 @@ void Picture::store(int x_mb, int y_mb, const Samples& samples) {
   }
 }
 
-bool Picture::update(int x_mb, int y_mb, const Planes& from, int width_px, int height_px) {
-  const std::ptrdiff_t luma = offset(0, x_mb, y_mb);
-  const std::ptrdiff_t chroma = offset(1, x_mb, y_mb);
-  const auto update_all = [&](const Plane& y, const Plane& cb, const Plane& cr) {
-    const bool has_luma =
-        update_plane<16>(y.samples, y.stride_bytes, plane(0) + luma, stride_bytes(0));
-    const bool has_cb =
-        update_plane<8>(cb.samples, cb.stride_bytes, plane(1) + chroma, stride_bytes(1));
-    const bool has_cr =
-        update_plane<8>(cr.samples, cr.stride_bytes, plane(2) + chroma, stride_bytes(2));
-    return has_luma || has_cb || has_cr;
-  };
-  if (16 * (x_mb + 1) <= width_px && 16 * (y_mb + 1) <= height_px) {
-    const auto at = [&](const Plane& plane, int side) -> Plane {
-      return {plane.samples + side * (y_mb * plane.stride_bytes + x_mb), plane.stride_bytes};
-    };
-    return update_all(at(from.y, 16), at(from.cb, 8), at(from.cr, 8));
+template <int side>
+bool Picture::update_plane(int number, int x_mb, int y_mb, const Plane& part, const Rect& rect) {
+  constexpr int kStep = kLumaSide / side;
+  const Area area = common_area<side>(x_mb, y_mb, rect);
+  const std::uint8_t* const from = part.samples +
+                                   (area.above - rect.y_px / kStep) * part.stride_bytes +
+                                   (area.left - rect.x_px / kStep);
+  std::uint8_t* const to = plane(number) + area.above * stride_bytes(number) + area.left;
+  return update_area<side>(area, from, part.stride_bytes, to, stride_bytes(number));
+}
+
+bool Picture::update(int x_mb, int y_mb, const Planes& part, const Rect& rect) {
+  const bool has_y = update_plane<16>(0, x_mb, y_mb, part.y, rect);
+  const bool has_cb = update_plane<8>(1, x_mb, y_mb, part.cb, rect);
+  const bool has_cr = update_plane<8>(2, x_mb, y_mb, part.cr, rect);
+  return has_y || has_cb || has_cr;
+}
+
+void Picture::extend(int x_mb, int y_mb, int width_px, int height_px) {
+  for (int i = 0; i < 3; ++i) {
+    const int side = side_of(i);
+    const int step = kLumaSide / side;
+    const int last_x = std::min(side * (x_mb + 1), width_px / step) - 1;
+    const int last_y = std::min(side * (y_mb + 1), height_px / step) - 1;
+    for (int y = side * y_mb; y < side * (y_mb + 1); ++y) {
+      std::uint8_t* const row = plane(i) + y * stride_bytes(i);
+      const std::uint8_t* const from = plane(i) + std::min(y, last_y) * stride_bytes(i);
+      if (y > last_y) std::memcpy(row + side * x_mb, from + side * x_mb, side);
+      std::fill(row + last_x + 1, row + side * (x_mb + 1), from[last_x]);
+    }
   }
-  Samples samples;  // NOLINT(cppcoreguidelines-pro-type-member-init): all are written
-  load_continued<16>(from.y, x_mb, y_mb, width_px, height_px, samples.plane(0));
-  load_continued<8>(from.cb, x_mb, y_mb, width_px / 2, height_px / 2, samples.plane(1));
-  load_continued<8>(from.cr, x_mb, y_mb, width_px / 2, height_px / 2, samples.plane(2));
-  return update_all({samples.plane(0), 16}, {samples.plane(1), 8}, {samples.plane(2), 8});
 }
 
 void Picture::copy(int x_mb, int y_mb, const Picture& from) {

@@ -127,15 +127,19 @@ class Picture {
 
   void load(int x_mb, int y_mb, Samples& samples) const;
   void store(int x_mb, int y_mb, const Samples& samples);
-  /// Takes a macroblock of a caller's picture of width_px x height_px pixels. Where it reaches out
-  /// of that picture, the last column and row are repeated: that costs the fewest bits.
-  /// @returns whether that changes anything
-  bool update(int x_mb, int y_mb, const Planes& from, int width_px, int height_px);
+  /// Takes the samples of a macroblock that lie in a rectangle of even numbers, which shares some
+  /// with it. @param part  the rectangle's samples alone. @returns whether that changes anything
+  bool update(int x_mb, int y_mb, const Planes& part, const Rect& rect);
+  /// Where a macroblock reaches out of a picture of width_px x height_px pixels, repeats the last
+  /// column and row: that costs the fewest bits.
+  void extend(int x_mb, int y_mb, int width_px, int height_px);
   /// Takes a macroblock of another picture of this size.
   void copy(int x_mb, int y_mb, const Picture& from);
   void load_borders(int x_mb, int y_mb, Borders& borders) const;
 
  private:
+  template <int side>
+  bool update_plane(int number, int x_mb, int y_mb, const Plane& part, const Rect& rect);
   std::ptrdiff_t offset(int plane, int x_mb, int y_mb) const noexcept {
     return side_of(plane) * (y_mb * stride_bytes(plane) + x_mb);
   }

@@ -25,6 +25,7 @@ PictureEncoder::PictureEncoder(const Config& config)
       source_(width_mb_, height_mb_),
       before_(width_mb_, height_mb_),
       decoded_(width_mb_, height_mb_),
+      taken_(width_mb_, height_mb_),
       changed_(width_mb_, height_mb_),
       visited_(width_mb_, height_mb_),
       states_(static_cast<std::size_t>(width_mb_) * height_mb_),
@@ -35,8 +36,27 @@ PictureEncoder::PictureEncoder(const Config& config)
   assert(0 <= config.qp && config.qp <= kMaxQp);
 }
 
-void PictureEncoder::encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
-  begin_picture(source, changed);
+void PictureEncoder::take(const Planes& part, Rect rect) {
+  rect.width_px = std::min(rect.width_px, width_px_ - rect.x_px);
+  rect.height_px = std::min(rect.height_px, height_px_ - rect.y_px);
+  if (rect.width_px <= 0 || rect.height_px <= 0) return;
+  const int last_x = (rect.x_px + rect.width_px - 1) / kLumaSide;
+  const int last_y = (rect.y_px + rect.height_px - 1) / kLumaSide;
+  for (int y_mb = rect.y_px / kLumaSide; y_mb <= last_y; ++y_mb) {
+    for (int x_mb = rect.x_px / kLumaSide; x_mb <= last_x; ++x_mb) {
+      if (!source_.update(x_mb, y_mb, part, rect)) continue;
+      if (kLumaSide * (x_mb + 1) > width_px_ || kLumaSide * (y_mb + 1) > height_px_) {
+        source_.extend(x_mb, y_mb, width_px_, height_px_);
+      }
+      const int address = y_mb * width_mb_ + x_mb;
+      taken_.add_one(address);
+      last_idr_.changed.add_one(address);
+    }
+  }
+}
+
+void PictureEncoder::encode_idr(Bytes& unit) {
+  begin_picture();
   // Those of adjacent IDR pictures differ (7.4.3), also from libx264's, which counts from 0.
   idr_pic_id_ = is_after_idr_ ? 3 - idr_pic_id_ : 1;
   is_after_idr_ = true;
@@ -54,8 +74,8 @@ void PictureEncoder::encode_idr(const Planes& source, const MacroblockSet& chang
   transformed_ = 0;
 }
 
-void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
-  begin_picture(source, changed);
+void PictureEncoder::encode_p(Bytes& unit) {
+  begin_picture();
   is_after_idr_ = false;
   frame_num_ = (frame_num_ + 1) & ((1U << kFrameNum_bits) - 1);
   motion_.begin_picture(changed_.count());
@@ -73,15 +93,11 @@ void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed
   finish_slice(unit);
 }
 
-void PictureEncoder::begin_picture(const Planes& source, const MacroblockSet& changed) {
+void PictureEncoder::begin_picture() {
   const int width = width_mb_;
   for (const int address : coded_) before_.copy(address % width, address / width, decoded_);
-  changed_.clear();
-  for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
-    if (!source_.update(address % width, address / width, source, width_px_, height_px_)) continue;
-    changed_.add_one(address);
-    last_idr_.changed.add_one(address);
-  }
+  std::swap(changed_, taken_);
+  taken_.clear();
 }
 
 void PictureEncoder::encode_all() {

@@ -1,6 +1,6 @@
 // Pictures of which little changes, as H.264.
-// In: a picture, and which of its macroblocks may differ from the picture before. Out: an access
-// unit of one slice, which skips all other macroblocks.
+// In: the parts of a picture that may differ from the picture before. Out: an access unit of one
+// slice, which skips all macroblocks that do not differ.
 //
 // Where nothing moves by whole samples, all motion vectors are zero, and so are those predicted for
 // skipped macroblocks (8.4.1.1). P_Skip beside a macroblock with another vector may
@@ -28,12 +28,15 @@ class PictureEncoder {
   /// @param config  of size and qp; the qp is at most kMaxQp
   explicit PictureEncoder(const Config& config);
 
+  /// Takes a part of the next picture; the other samples are those of the picture before.
+  /// @param rect  of even numbers, from 0; what reaches out of the picture is cut off
+  /// @param part  the samples of the rectangle alone
+  void take(const Planes& part, Rect rect);
   /// An IDR picture. Macroblocks keep the bits of the last one where they are coded alike, which
   /// changes no byte.
-  /// @param changed  macroblocks that may differ from the source before; of the first, all
-  /// @param unit     is replaced by the access unit, with a start code of four bytes
-  void encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit);
-  void encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit);
+  /// @param unit  is replaced by the access unit, with a start code of four bytes
+  void encode_idr(Bytes& unit);
+  void encode_p(Bytes& unit);
 
   /// The last picture as every decoder has it.
   const Picture& decoded() const noexcept { return decoded_; }
@@ -52,7 +55,7 @@ class PictureEncoder {
     std::vector<std::size_t> starts;  ///< of each macroblock's bits in the slice, and its end
   };
 
-  void begin_picture(const Planes& source, const MacroblockSet& changed);
+  void begin_picture();
   void begin_slice(SliceType type);
   void encode_all();
   /// Whether the bits of the macroblock in the last IDR picture cannot be used: its source has
@@ -79,7 +82,8 @@ class PictureEncoder {
   Picture source_;
   Picture before_;  // the decoded picture before the last
   Picture decoded_;
-  MacroblockSet changed_;  // the last picture's source
+  MacroblockSet taken_;    // what differs in the source of the next picture
+  MacroblockSet changed_;  // the same of the picture that is made
   MacroblockSet visited_;  // what changes, and what is beside motion
   std::vector<MacroblockState> states_;
   std::vector<int> coded_;  // addresses of the macroblocks whose states are set

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "h264/encoder.hpp"
 #include "h264/picture.hpp"
@@ -72,5 +74,20 @@ class CallersPicture {
   int padding_bytes_;
   std::array<std::unique_ptr<std::uint8_t[]>, 3> samples_;
 };
+
+/// Of the same picture, from pixel (x, y) on.
+inline Planes planes_from(const Planes& planes, int x, int y) {
+  const auto at = [&](const Plane& plane, int step) -> Plane {
+    return {plane.samples + y / step * plane.stride_bytes + x / step, plane.stride_bytes};
+  };
+  return {at(planes.y, 1), at(planes.cb, 2), at(planes.cr, 2)};
+}
+
+/// Encodes a picture of which only these rectangles are taken.
+inline CodedPicture encode(Encoder& encoder, const Planes& picture, std::span<const Rect> rects,
+                           PictureType type, std::vector<std::uint8_t>& unit) {
+  for (const Rect& rect : rects) encoder.take(planes_from(picture, rect.x_px, rect.y_px), rect);
+  return encoder.encode(type, unit);
+}
 
 }  // namespace piblocks::h264

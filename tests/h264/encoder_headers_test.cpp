@@ -35,7 +35,8 @@ TEST(EncoderHeaders, AreUnderstoodByLibavcodec) {
     Encoder encoder(config);
     const CallersPicture picture(config.width_px, config.height_px);
     std::vector<std::uint8_t> unit;
-    encoder.encode(picture.planes(), {}, PictureType::idr, unit);
+    encoder.take(picture.planes(), {0, 0, config.width_px, config.height_px});
+    encoder.encode(PictureType::idr, unit);
     // In the stream, as in a file .h264.
     unit.insert(unit.begin(), encoder.headers().begin(), encoder.headers().end());
     const auto size = static_cast<int>(unit.size());

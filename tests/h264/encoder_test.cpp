@@ -98,56 +98,58 @@ Bytes headers_of(const Encoder& encoder) {
   return {encoder.headers().begin(), encoder.headers().end()};
 }
 
-TEST(Encoder, TakesTheFirstPictureWholeAndAsAKeyFrame) {
-  const Config config = {.width_px = 70, .height_px = 38};
-  const CallersPicture picture = noise(config, 1);
-  Bytes whole_unit;
-  Encoder(config).encode(picture.planes(), whole(config), PictureType::idr, whole_unit);
-  const std::vector<std::vector<Rect>> some = {{}, {{0, 0, 2, 2}}, {{5, 5, -1, 3}}};
-  for (const std::vector<Rect>& rects : some) {
-    Encoder encoder(config);
-    Bytes unit;
-    const CodedPicture coded = encoder.encode(picture.planes(), rects, PictureType::p, unit);
-    EXPECT_EQ(coded.type, PictureType::idr);
-    EXPECT_EQ(coded.transformed_macroblocks, 0);
-    EXPECT_EQ(unit, whole_unit);
-    StrictDecoder decoder(headers_of(encoder));
-    const auto shown = decoder.decode(unit);
-    ASSERT_TRUE(shown);
-    EXPECT_EQ(excess(picture.planes(), config.width_px, config.height_px, *shown, config.qp), "");
-    // The next is what was asked for.
-    EXPECT_EQ(encoder.encode(picture.planes(), {}, PictureType::p, unit).type, PictureType::p);
-    EXPECT_LE(unit.size(), 12u);
-  }
+Bytes key_frame_of(const Config& config, const Planes& picture) {
+  Encoder encoder(config);
+  Bytes unit;
+  encode(encoder, picture, whole(config), PictureType::idr, unit);
+  return unit;
 }
 
-/// The units of a stream whose picture changes in a square, told by these rectangles.
+TEST(Encoder, MakesTheFirstPictureAKeyFrame) {
+  const Config config = {.width_px = 70, .height_px = 38};
+  const CallersPicture picture = noise(config, 1);
+  Encoder encoder(config);
+  Bytes unit;
+  const CodedPicture coded = encode(encoder, picture.planes(), whole(config), PictureType::p, unit);
+  EXPECT_EQ(coded.type, PictureType::idr);
+  EXPECT_EQ(coded.transformed_macroblocks, 0);
+  EXPECT_EQ(unit, key_frame_of(config, picture.planes()));
+  StrictDecoder decoder(headers_of(encoder));
+  const auto shown = decoder.decode(unit);
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(excess(picture.planes(), config.width_px, config.height_px, *shown, config.qp), "");
+  // The next is what was asked for.
+  EXPECT_EQ(encoder.encode(PictureType::p, unit).type, PictureType::p);
+  EXPECT_LE(unit.size(), 12u);
+}
+
+/// The units of a stream whose picture changes in a square, of which these rectangles are taken.
 std::vector<Bytes> units_told(const Config& config, const std::vector<Rect>& rects) {
   Encoder encoder(config);
   CallersPicture picture = noise(config, 2);
   std::vector<Bytes> units(4);
-  encoder.encode(picture.planes(), {}, PictureType::idr, units[0]);
+  encode(encoder, picture.planes(), whole(config), PictureType::idr, units[0]);
   for (std::size_t i = 1; i < units.size(); ++i) {
     for (int y = 20; y < 30; ++y) std::fill_n(picture.row(0, y) + 36, 10, std::uint8_t(50 * i));
-    encoder.encode(picture.planes(), rects, i == 2 ? PictureType::idr : PictureType::p, units[i]);
+    encode(encoder, picture.planes(), rects, i == 2 ? PictureType::idr : PictureType::p, units[i]);
   }
   return units;
 }
 
 TEST(Encoder, MakesTheSameBytesHoweverCoarseTheRectanglesAre) {
+  constexpr int kMostEven = kMostInt - 1;
   const Config config = {.width_px = 70, .height_px = 38};
   const std::vector<Bytes> expected = units_told(config, {{36, 20, 10, 10}});
   const std::vector<std::vector<Rect>> others = {
-      {{35, 19, 12, 12}},
-      {{36, 20, 5, 10}, {41, 20, 5, 10}, {36, 20, 10, 10}},
+      {{34, 18, 14, 12}},
+      {{36, 20, 4, 10}, {40, 20, 6, 10}, {36, 20, 10, 10}},
+      {{36, 20, 10, 2}, {36, 22, 10, 6}, {36, 28, 10, 2}},
       whole(config),
-      {{-10, -10, 1000, 1000}},
-      {{-kMostInt, -kMostInt, kMostInt, kMostInt}, {0, 0, kMostInt, kMostInt}},
-      {{36, 20, kMostInt, kMostInt}},
-      {{30, 20, 1000, 10}, {kMostInt, kMostInt, kMostInt, kMostInt}},
+      {{0, 0, 1000, 1000}},
+      {{0, 0, kMostEven, kMostEven}},
+      {{36, 20, kMostEven, kMostEven}},
       // What is empty or outside says nothing.
-      {{36, 20, 10, 10}, {0, 0, 0, 5}, {0, 0, 5, -5}, {-20, 0, 20, 38}, {70, 0, 5, 5}},
-      {{36, 20, 10, 10}, {50, 3, -kMostInt - 1, 5}, {3, 38, 5, 5}, {3, -4, 5, 4}}};
+      {{36, 20, 10, 10}, {0, 0, 0, 4}, {70, 0, 4, 4}, {2, 38, 4, 4}, {70, 38, kMostEven, 2}}};
   for (const std::vector<Rect>& rects : others) {
     EXPECT_EQ(units_told(config, rects), expected) << &rects - others.data();
   }
@@ -156,41 +158,44 @@ TEST(Encoder, MakesTheSameBytesHoweverCoarseTheRectanglesAre) {
 TEST(Encoder, LeavesWhatIsInNoRectangle) {
   const Config config = {.width_px = 70, .height_px = 38};
   const std::vector<Bytes> units =
-      units_told(config, {{0, 0, 0, 5}, {-20, 0, 20, 38}, {70, 0, 5, 5}, {0, 38, 70, 9}});
+      units_told(config, {{0, 0, 0, 4}, {0, 0, 36, 38}, {46, 0, 24, 38}, {0, 38, 70, 10}});
   EXPECT_LE(units[1].size(), 12u);
   EXPECT_EQ(units[2].size(), units[0].size()) << "as the first, but for idr_pic_id";
   EXPECT_LE(units[3].size(), 12u);
 }
 
-TEST(Encoder, RefusesPlanesWithoutSamplesAndGoesOn) {
+TEST(Encoder, RefusesPartsWithoutSamplesOrOfOddPlacesAndGoesOn) {
   const Config config = {.width_px = 36, .height_px = 20};
   const CallersPicture picture = noise(config, 3);
   Encoder encoder(config);
-  Bytes unit = {1, 2, 3};
   for (Plane Planes::*const plane : {&Planes::y, &Planes::cb, &Planes::cr}) {
     Planes planes = picture.planes();
     (planes.*plane).samples = nullptr;
-    EXPECT_THROW(encoder.encode(planes, {}, PictureType::p, unit), Error);
-    EXPECT_EQ(unit, Bytes({1, 2, 3}));
+    EXPECT_THROW(encoder.take(planes, {0, 0, 36, 20}), Error);
   }
-  Bytes expected;
-  Encoder(config).encode(picture.planes(), {}, PictureType::idr, expected);
-  EXPECT_EQ(encoder.encode(picture.planes(), {}, PictureType::p, unit).type, PictureType::idr);
-  EXPECT_EQ(unit, expected);
+  for (const Rect& rect : {Rect{1, 0, 2, 2},
+                           {0, 3, 2, 2},
+                           {0, 0, 5, 2},
+                           {0, 0, 2, kMostInt},
+                           {-2, 0, 2, 2},
+                           {0, -kMostInt - 1, 2, 2},
+                           {0, 0, -4, 2}}) {
+    EXPECT_THROW(encoder.take(picture.planes(), rect), Error);
+  }
+  Bytes unit;
+  encode(encoder, picture.planes(), whole(config), PictureType::p, unit);
+  EXPECT_EQ(unit, key_frame_of(config, picture.planes()));
 }
 
 TEST(Encoder, TakesRowsHoweverFarApartAndEitherWay) {
   const Config config = {.width_px = 52, .height_px = 36};
   const CallersPicture dense = noise(config, 4);
-  Bytes expected;
-  Encoder(config).encode(dense.planes(), {}, PictureType::idr, expected);
+  const Bytes expected = key_frame_of(config, dense.planes());
   for (const int padding_bytes : {1, 12, 77}) {
     CallersPicture wide(config.width_px, config.height_px, padding_bytes);
     wide.set([&](int plane, int x, int y) { return dense.row(plane, y)[x]; });
     wide.set_padding(std::uint8_t(padding_bytes));
-    Bytes unit;
-    Encoder(config).encode(wide.planes(), {}, PictureType::idr, unit);
-    EXPECT_EQ(unit, expected) << padding_bytes;
+    EXPECT_EQ(key_frame_of(config, wide.planes()), expected) << padding_bytes;
   }
   CallersPicture upside_down(config.width_px, config.height_px, 6);
   upside_down.set(
@@ -198,9 +203,7 @@ TEST(Encoder, TakesRowsHoweverFarApartAndEitherWay) {
   const auto last_row = [&](int plane) -> Plane {
     return {upside_down.row(plane, dense.height(plane) - 1), -upside_down.stride_bytes(plane)};
   };
-  Bytes unit;
-  Encoder(config).encode({last_row(0), last_row(1), last_row(2)}, {}, PictureType::idr, unit);
-  EXPECT_EQ(unit, expected);
+  EXPECT_EQ(key_frame_of(config, {last_row(0), last_row(1), last_row(2)}), expected);
 }
 
 /// The last column and row are repeated, as here by hand.
@@ -228,8 +231,8 @@ TEST(Encoder, ExtendsPicturesOfNoWholeMacroblocks) {
         }
       }
       Bytes unit;
-      encoder.encode(picture.planes(), whole(config), i == 0 ? PictureType::idr : PictureType::p,
-                     unit);
+      encode(encoder, picture.planes(), whole(config), i == 0 ? PictureType::idr : PictureType::p,
+             unit);
       EXPECT_EQ(unit, i == 0 ? encoded_idr(by_hand, extended) : encoded_p(by_hand, extended, all))
           << width << 'x' << height << ", picture " << i;
     }
@@ -246,8 +249,8 @@ std::vector<Bytes> units_of(Encoder& encoder, const Config& config, std::uint64_
   for (int i = 0; i < 10; ++i) {
     if (i > 0) pictures.advance();
     picture.copy(pictures.picture());
-    encoder.encode(picture.planes(), whole(config), i == 6 ? PictureType::idr : PictureType::p,
-                   units.emplace_back());
+    encode(encoder, picture.planes(), whole(config), i == 6 ? PictureType::idr : PictureType::p,
+           units.emplace_back());
   }
   return units;
 }
@@ -270,7 +273,7 @@ TEST(Encoder, KeepsTheCallersBytesFromPictureToPicture) {
   const std::uint8_t* const begin = unit.data();
   for (std::uint64_t i = 0; i < 6; ++i) {
     const CallersPicture picture = noise(config, i);
-    encoder.encode(picture.planes(), whole(config), PictureType::p, unit);
+    encode(encoder, picture.planes(), whole(config), PictureType::p, unit);
     EXPECT_EQ(unit.data(), begin);
     EXPECT_EQ(std::vector(unit.begin(), unit.begin() + 4), Bytes({0, 0, 0, 1}));
     EXPECT_EQ(read_units(unit).size(), 1u);
@@ -286,7 +289,7 @@ TEST(Encoder, NumbersKeyFramesThatFollowEachOther) {
   for (std::uint64_t i = 0; i < 8; ++i) {
     Bytes unit;
     if (i > 4) encoder.restart();
-    encoder.encode(noise(config, i).planes(), whole(config), PictureType::idr, unit);
+    encode(encoder, noise(config, i).planes(), whole(config), PictureType::idr, unit);
     const std::vector<Unit> units = read_units(unit);
     ASSERT_EQ(units.size(), 1u);
     EXPECT_EQ(units[0].type, 5);

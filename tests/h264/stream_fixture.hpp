@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "h264/callers_picture.hpp"
 #include "h264/levels.hpp"
 #include "h264/parameter_sets.hpp"
 #include "h264/picture_encoder.hpp"
@@ -35,10 +36,20 @@ struct StreamHeaders {
   int height_mb;
 };
 
+/// Takes these macroblocks of the next picture.
+inline void take(PictureEncoder& encoder, const Picture& source, const MacroblockSet& changed) {
+  for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
+    const int x_px = 16 * (address % source.width_mb());
+    const int y_px = 16 * (address / source.width_mb());
+    encoder.take(planes_from(source.planes(), x_px, y_px), {x_px, y_px, 16, 16});
+  }
+}
+
 inline Bytes encoded_idr(PictureEncoder& encoder, const Picture& source,
                          const MacroblockSet& changed) {
   Bytes unit;
-  encoder.encode_idr(source.planes(), changed, unit);
+  take(encoder, source, changed);
+  encoder.encode_idr(unit);
   return unit;
 }
 
@@ -52,7 +63,8 @@ inline Bytes encoded_idr(PictureEncoder& encoder, const Picture& source) {
 inline Bytes encoded_p(PictureEncoder& encoder, const Picture& source,
                        const MacroblockSet& changed) {
   Bytes unit;
-  encoder.encode_p(source.planes(), changed, unit);
+  take(encoder, source, changed);
+  encoder.encode_p(unit);
   return unit;
 }
 

@@ -32,10 +32,11 @@ h264::Config config_of(const VideoFormat& format) {
           .qp = kQp};
 }
 
-h264::Planes planes_of(const YuvView<std::uint8_t>& view) {
-  return {{view.y.samples, view.y.stride_bytes},
-          {view.cb.samples, view.cb.stride_bytes},
-          {view.cr.samples, view.cr.stride_bytes}};
+/// Those of the columns from x_px on.
+h264::Planes planes_at(int x_px, const YuvView<std::uint8_t>& view) {
+  return {{view.y.samples + x_px, view.y.stride_bytes},
+          {view.cb.samples + x_px / 2, view.cb.stride_bytes},
+          {view.cr.samples + x_px / 2, view.cr.stride_bytes}};
 }
 
 class H264ChunkEncoder final : public ChunkEncoder {
@@ -46,7 +47,7 @@ class H264ChunkEncoder final : public ChunkEncoder {
         make_successor_(std::move(make_successor)),
         may_hand_over_(stream.may_hand_over),
         encoder_(stream.config),
-        samples_(yuv420_bytes(stream.format.width_px, stream.format.height_px)) {}
+        samples_(yuv420_bytes(stream.format.width_px, h264::kLumaSide)) {}
 
   void begin(std::int64_t first_frame) override {
     next_frame_ = first_frame;
@@ -56,14 +57,12 @@ class H264ChunkEncoder final : public ChunkEncoder {
   }
   void encode() override {
     if (is_handed_over_) return successor_->encode();
-    const h264::CodedPicture coded =
-        encoder_.encode(planes_of(picture()), changed_, h264::PictureType::p, unit_);
+    const h264::CodedPicture coded = encoder_.encode(h264::PictureType::p, unit_);
     chunk_.push_back({.bytes = unit_,
                       .pts = next_frame_,
                       .dts = next_frame_,
                       .key_frame = coded.type == h264::PictureType::idr});
     transformed_ += coded.transformed_macroblocks;
-    changed_.clear();
     ++next_frame_;
   }
   EncodedChunk finish() override {
@@ -84,20 +83,25 @@ class H264ChunkEncoder final : public ChunkEncoder {
     } else if (changes_too_much() && hand_over()) {
       successor_->take(frame);
     } else if (std::exchange(is_behind_, false)) {
-      const PixelRect whole{0, 0, frame.width_px, frame.height_px};
-      convert_here(frame, {&whole, 1});
+      convert_here(frame, PixelRect{0, 0, frame.width_px, frame.height_px});
     } else {
       convert_here(frame, rects);
     }
   }
-  YuvView<std::uint8_t> picture() {
-    return yuv420_view(samples_.data(), stream_.format.width_px, stream_.format.height_px);
-  }
   void convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
-    for (const PixelRect& rect : rects) {
-      const PixelRect aligned = chroma_aligned(rect, frame);
-      convert_to_yuv420(frame, aligned, picture());
-      changed_.push_back({aligned.x_px, aligned.y_px, aligned.width_px, aligned.height_px});
+    for (const PixelRect& rect : rects) convert_here(frame, chroma_aligned(rect, frame));
+  }
+  /// Rows of macroblocks, one after the other: the encoder takes them while they are in the cache.
+  void convert_here(const ImageView& frame, const PixelRect& rect) {
+    for (int y = rect.y_px; y < rect.bottom_px();) {
+      const int end = std::min((y / h264::kLumaSide + 1) * h264::kLumaSide, rect.bottom_px());
+      ImageView rows = frame;
+      rows.data = frame.row(y);
+      rows.height_px = end - y;
+      const auto samples = yuv420_view(samples_.data(), rows.width_px, rows.height_px);
+      convert_to_yuv420(rows, {rect.x_px, 0, rect.width_px, rows.height_px}, samples);
+      encoder_.take(planes_at(rect.x_px, samples), {rect.x_px, y, rect.width_px, rows.height_px});
+      y = end;
     }
   }
   /// Makes the next frame a key frame of libavcodec's encoder. @returns whether there is one
@@ -126,14 +130,13 @@ class H264ChunkEncoder final : public ChunkEncoder {
   MakeSuccessor make_successor_;
   bool may_hand_over_;
   h264::Encoder encoder_;
-  std::vector<std::uint8_t, h264::ZeroedMemory<std::uint8_t>> samples_;  // of picture()
-  std::vector<h264::Rect> changed_;
+  std::vector<std::uint8_t> samples_;  // of a row of macroblocks
   Bytes unit_;
   std::int64_t next_frame_ = 0;
   EncodedChunk chunk_;
   std::int64_t transformed_ = 0;  // macroblocks of the chunk's P pictures
   bool is_handed_over_ = false;   // to libavcodec's encoder
-  bool is_behind_ = false;        // picture() lacks frames that only libavcodec's encoder took
+  bool is_behind_ = false;        // encoder_ lacks frames that only libavcodec's encoder took
   std::unique_ptr<ChunkEncoder> successor_;
 };
 

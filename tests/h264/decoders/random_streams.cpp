@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "h264/callers_picture.hpp"
 #include "h264/encoder.hpp"
 #include "h264/random_pictures.hpp"
 
@@ -55,8 +56,10 @@ void write_stream(const std::string& folder, const Config& config) {
   write(file, encoder.headers());
   for (int i = 0; i < kPictures; ++i) {
     if (i > 0) pictures.advance();
-    encoder.encode(pictures.picture().planes(), macroblocks(pictures.changed(), width_mb),
-                   i % kPicturesInGroup == 0 ? PictureType::idr : PictureType::p, unit);
+    const std::vector<Rect> all = {{0, 0, config.width_px, config.height_px}};
+    encode(encoder, pictures.picture().planes(),
+           i == 0 ? all : macroblocks(pictures.changed(), width_mb),
+           i % kPicturesInGroup == 0 ? PictureType::idr : PictureType::p, unit);
     write(file, unit);
   }
 }
