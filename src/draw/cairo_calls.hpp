@@ -11,35 +11,12 @@
 #include <pixman.h>
 #include FT_FREETYPE_H
 
-#include <atomic>
+#include "core/found_function.hpp"
 
 namespace piblocks {
 
 /// The address of one of these functions. Thread-safe. @throws DrawError if it cannot be loaded
 void* drawing_function(const char* name);
-
-template <typename Function>
-class FoundFunction;
-
-/// Looked up when it is first called.
-template <typename Result, typename... Arguments>
-class FoundFunction<Result(Arguments...)> {
- public:
-  explicit constexpr FoundFunction(const char* name) : name_(name) {}
-
-  Result operator()(Arguments... arguments) const {
-    auto function = function_.load(std::memory_order_acquire);
-    if (function == nullptr) {
-      function = reinterpret_cast<Result (*)(Arguments...)>(drawing_function(name_));
-      function_.store(function, std::memory_order_release);
-    }
-    return function(arguments...);
-  }
-
- private:
-  const char* name_;
-  mutable std::atomic<Result (*)(Arguments...)> function_ = nullptr;
-};
 
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): only a macro makes declarations of a list of names
 // clang-format off
@@ -75,7 +52,8 @@ class FoundFunction<Result(Arguments...)> {
 // clang-format on
 
 // In this namespace the name of a function means an object, which has the function's type.
-#define PIBLOCKS_FOUND(name) inline constinit const FoundFunction<decltype(::name)> name(#name);
+#define PIBLOCKS_FOUND(name) \
+  inline constinit const FoundFunction<drawing_function, decltype(::name)> name(#name);
 PIBLOCKS_DRAWING_FUNCTIONS(PIBLOCKS_FOUND)
 #undef PIBLOCKS_FOUND
 // NOLINTEND(cppcoreguidelines-macro-usage)

@@ -43,7 +43,11 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME piblocks)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION video)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libcairo2 (>= 1.16)")  # loaded, not linked
+# What is loaded, not linked: Debian names libavformat.so.59 libavformat59.
+pkg_get_variable(avformat_libdir libavformat libdir)
+file(REAL_PATH ${avformat_libdir}/libavformat.so avformat)
+string(REGEX REPLACE ".*\\.so\\.([0-9]+).*" "libavformat\\1" avformat ${avformat})
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libcairo2 (>= 1.16), ${avformat}")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
 "Two sliding blocks and a wall collide as often as the first digits of pi say.
 This program renders the animation as a video (H.264), as numbered pictures,
@@ -68,7 +72,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 math(EXPR next_python "${Python_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
 "python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python}), python3-numpy, \
-libcairo2 (>= 1.16)")
+libcairo2 (>= 1.16), ${avformat}")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-ipywidgets, python3-pytest")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION
 "The library behind the program piblocks, for Python: scenes from keywords,

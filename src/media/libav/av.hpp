@@ -10,9 +10,10 @@
 
 extern "C" {
 #include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/hash.h>
 }
+
+#include "media/libav/avformat_calls.hpp"
 
 namespace piblocks {
 
@@ -25,6 +26,10 @@ struct AvDeleter {
   }
 };
 
+struct AvInputDeleter {
+  void operator()(AVFormatContext* input) const noexcept { avformat_close_input(&input); }
+};
+
 /// Closes the file of a muxer, if it is still open, and frees the muxer.
 struct AvOutputDeleter {
   void operator()(AVFormatContext* muxer) const noexcept {
@@ -33,7 +38,7 @@ struct AvOutputDeleter {
   }
 };
 
-using AvInputPtr = std::unique_ptr<AVFormatContext, AvDeleter<avformat_close_input>>;
+using AvInputPtr = std::unique_ptr<AVFormatContext, AvInputDeleter>;
 using AvFramePtr = std::unique_ptr<AVFrame, AvDeleter<av_frame_free>>;
 using AvPacketPtr = std::unique_ptr<AVPacket, AvDeleter<av_packet_free>>;
 using AvCodecContextPtr = std::unique_ptr<AVCodecContext, AvDeleter<avcodec_free_context>>;
