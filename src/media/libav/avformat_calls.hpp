@@ -15,6 +15,8 @@ namespace piblocks {
 void* avformat_function(const char* name);
 
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): only a macro makes declarations of a list of names
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wignored-attributes"  // warn_unused_result is no part of a type
 // In this namespace the name of a function means an object, which has the function's type.
 #define PIBLOCKS_FOUND(name) \
   inline constinit const FoundFunction<avformat_function, decltype(::name)> name(#name);
@@ -44,6 +46,7 @@ PIBLOCKS_FOUND(avio_rl32)
 PIBLOCKS_FOUND(avio_seek)
 PIBLOCKS_FOUND(avio_size)
 #undef PIBLOCKS_FOUND
+#pragma GCC diagnostic pop
 // NOLINTEND(cppcoreguidelines-macro-usage)
 
 /// In place of libavformat's inline function, which would link avio_seek().
