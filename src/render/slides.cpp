@@ -33,7 +33,8 @@ constexpr std::string_view kSection = R"(<section{transition}>
 </section>
 )";
 
-/// Slides of the film's shape, in centimetres.
+/// Slides of the film's shape, in centimetres. Without office:styles, LibreOffice would give all
+/// slides its own size.
 constexpr std::string_view kImpressHead = R"(<?xml version="1.0" encoding="UTF-8"?>
 <office:document xmlns:office="urn:oasis:names:tc:opendocument:xmlns:office:1.0"
   xmlns:style="urn:oasis:names:tc:opendocument:xmlns:style:1.0"
@@ -42,6 +43,7 @@ constexpr std::string_view kImpressHead = R"(<?xml version="1.0" encoding="UTF-8
   xmlns:fo="urn:oasis:names:tc:opendocument:xmlns:xsl-fo-compatible:1.0"
   xmlns:xlink="http://www.w3.org/1999/xlink"
   office:version="1.3" office:mimetype="application/vnd.oasis.opendocument.presentation">
+<office:styles/>
 <office:automatic-styles><style:page-layout style:name="slide">
 <style:page-layout-properties fo:page-width="{width}" fo:page-height="{height}" fo:margin="0cm"/>
 </style:page-layout></office:automatic-styles>

@@ -59,8 +59,9 @@ _UNTRUSTED = "Jupyter shows the film once you trust this notebook."
 
 
 def _frame_of_page(page: str, width: int, height: int) -> str:
+    # In a frame that may not fill the screen, Chromium does not play a film on a click.
     return (
-        f'<iframe srcdoc="{escape(page, quote=True)}" sandbox="allow-scripts" '
+        f'<iframe srcdoc="{escape(page, quote=True)}" sandbox="allow-scripts" allowfullscreen '
         f'title="piblocks" style="width: 100%; max-width: {width + 40}px; '
         f'height: {height + _CONTROLS_HEIGHT}px; border: 0">{_UNTRUSTED}</iframe>'
     )

@@ -3,11 +3,14 @@
 In: scripts. Out: what they say.
 """
 
+import base64
 import json
 import socket
 import subprocess
 import sys
 import time
+
+KEYS = {"ArrowRight": "\ue014"}  # as WebDriver calls them
 
 
 class Firefox:
@@ -66,6 +69,20 @@ class Firefox:
 
     def show_address(self, address):
         self.call("WebDriver:Navigate", url=address)
+
+    def resize(self, width, height):
+        """The page, without what the window has around it."""
+        around = self.value("[outerWidth - innerWidth, outerHeight - innerHeight]")
+        self.call("WebDriver:SetWindowRect", width=width + around[0], height=height + around[1])
+
+    def press(self, key, _code):
+        """A key by its name. Its number is what Chromium wants."""
+        actions = [{"type": kind, "value": KEYS[key]} for kind in ("keyDown", "keyUp")]
+        self.call("WebDriver:PerformActions", actions=[{"type": "key", "id": "keyboard", "actions": actions}])
+
+    def save_picture(self, _element, path):
+        """What is seen in the window."""
+        path.write_bytes(base64.b64decode(self.call("WebDriver:TakeScreenshot", full=False)["value"]))
 
     def value(self, script):
         """What JavaScript says, promises kept."""
