@@ -15,7 +15,7 @@ namespace piblocks {
 /// When a frame appears, in units of a second's fraction, rounded to the nearest. Durations are
 /// differences of these times, so that nothing drifts.
 inline Integer tick_of(std::int64_t frame, const Rational& frame_rate, int ticks_per_s) {
-  return floor(Rational(frame) * ticks_per_s / frame_rate + Rational(1, 2));
+  return floor(Rational(to_integer(frame)) * ticks_per_s / frame_rate + Rational(1, 2));
 }
 
 /// Makes an image of each frame that differs from the one before. The packet of any other frame is

@@ -200,9 +200,9 @@ class ApngReader final : public FrameReader {
                       (!is_default || (control.width == width_ && control.height == height_));
     if (!fits || data[24] > 2 || data[25] > 1) fail(path_, "fcTL: invalid values");
     control_ = control;
-    const auto denominator = from_big_endian(data.subspan(22, 2));
-    duration_s_ =
-        Rational(from_big_endian(data.subspan(20, 2)), denominator == 0 ? 100 : denominator);
+    const auto numerator = static_cast<int>(from_big_endian(data.subspan(20, 2)));
+    const auto denominator = static_cast<int>(from_big_endian(data.subspan(22, 2)));
+    duration_s_ = Rational(numerator, denominator == 0 ? 100 : denominator);
     duration_s_.canonicalize();
     // Nothing was there before the first frame.
     if (is_first && control.disposal == Disposal::previous) {
