@@ -106,7 +106,7 @@ std::int64_t clear_masked(std::span<const PixelRect> masks, int y, std::vector<L
   std::int64_t cleared = 0;
   for (const PixelRect& r : masks) {
     if (y < r.y_px || y - r.y_px >= r.height_px) continue;
-    const auto right = std::min(std::int64_t{r.x_px} + r.width_px, std::ssize(deltas));
+    const auto right = std::min<std::int64_t>(std::int64_t{r.x_px} + r.width_px, std::ssize(deltas));
     for (std::int64_t x = std::max(r.x_px, 0); x < right; ++x) {
       cleared += std::exchange(deltas[static_cast<std::size_t>(x)], Level{0}) != 0 ? 1 : 0;
     }
@@ -342,7 +342,7 @@ Difference compare_pictures(const Rows& reference, const Rows& actual, const Tol
   const Rational pixels = Rational(reference.width_px) * reference.height_px;
   result.is_accepted =
       result.off_pixels <= tolerance.max_pixels &&
-      result.off_pixels <= tolerance.max_share * pixels &&
+      to_integer(result.off_pixels) <= tolerance.max_share * pixels &&
       result.largest_delta <= levels_of(tolerance.hard_delta, reference.max_level) &&
       (!tolerance.window || result.densest_off <= tolerance.window->max_pixels);
   return result;

@@ -14,11 +14,11 @@ namespace piblocks {
 namespace {
 
 /// Frames that it takes to read a text, at least a second of them.
-Rational reading_frames(std::string_view text, const Rational& frame_rate) {
+std::int64_t reading_frames(std::string_view text, const Rational& frame_rate) {
   constexpr int kReadPerSecond = 20;
   const auto is_first_byte = [](char byte) { return (byte & 0xC0) != 0x80; };
   const Rational length_s = Rational(std::ranges::count_if(text, is_first_byte)) / kReadPerSecond;
-  return std::max<Rational>(1, length_s) * frame_rate;
+  return ceil(std::max<Rational>(1, length_s) * frame_rate).get_si();
 }
 
 /// Captions by their first frames in the film.
@@ -42,7 +42,6 @@ class CountWords {
 
   /// @param frames  for which the count stays
   std::string text(const Integer& count, std::int64_t frames) {
-    constexpr int kLong_s = 1;
     if (count == 0) {
       return least_ < 0 ? "No collision between now and time 0" : "No collision yet";
     }
@@ -52,7 +51,7 @@ class CountWords {
       });
     }
     const char* const until = count < 0 ? " to go until time 0" : "";
-    if (frames >= kLong_s * frame_rate_) {
+    if (to_integer(frames) >= frame_rate_) {  // a second
       said_ = count;
       return collisions(abs(count)) + until;
     }
@@ -91,7 +90,7 @@ Cues cues_of_run(const SeenSegment& seen, const Rational& frame_rate) {
   const std::vector<Integer> counts = seen.counts(run);
   CountWords words(shown(run, seen), std::ranges::min(counts), frame_rate);
   const std::string title = own_title(run.scene());
-  const Rational title_frames = title.empty() ? Rational(0) : reading_frames(title, frame_rate);
+  const std::int64_t title_frames = title.empty() ? 0 : reading_frames(title, frame_rate);
   Cues cues;
   for (auto begin = counts.begin(); begin != counts.end();) {
     const auto end =
