@@ -18,7 +18,7 @@ Rational parse_delta(const std::string& text) {
 }
 
 std::int64_t parse_pixels(const std::string& text) {
-  return parse_whole_number(text, 0, Integer(kMaxFrame_px)).get_si();
+  return parse_whole_number(text, 0, to_integer(kMaxFrame_px)).get_si();
 }
 
 /// "0.1%", of the pixels of a frame.
