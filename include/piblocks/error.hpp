@@ -15,39 +15,70 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// One thing that is wrong.
+struct Problem {
+  std::string key = {};     ///< that it is about, as in a scene file: "red.mass"; may be empty
+  std::string reason = {};  ///< with the value: "= -1: must be greater than 0"; or ": is too long"
+  std::string item = {};    ///< of the key's list, if it is about one: "unfolded"
+  std::string origin = {};  ///< of the value, as "--size" or "story.toml:12"; empty if not known
+  bool is_unread = false;   ///< the text of the value, or its key, means nothing
+
+  /// As it is told: "story.toml:12: red.mass = -1: must be greater than 0".
+  std::string line() const {
+    const bool is_one_word = key.empty() || reason.starts_with(':');
+    return (origin.empty() ? "" : origin + ": ") + key + (is_one_word ? "" : " ") + reason;
+  }
+};
+
 /// What was asked for cannot be done as asked: a value out of range, a scene that contradicts
 /// itself, an output that cannot be opened. Nothing has been written.
 class UsageError : public Error {
  public:
-  explicit UsageError(const std::string& problem) : UsageError(std::vector{problem}) {}
+  explicit UsageError(const std::string& line) : UsageError(Problem{.reason = line}) {}
+  /// "KEY: REASON". @param item  as of Problem
+  UsageError(const std::string& key, const std::string& reason, const std::string& item = {})
+      : UsageError(Problem{key, ": " + reason, item}) {}
+  explicit UsageError(Problem problem) : UsageError(std::vector{std::move(problem)}) {}
   /// @param problems at least one; each is a line of its own in what(). Of more than kMostProblems
   ///                 the last line says how many there are.
-  explicit UsageError(std::vector<std::string> problems)
+  explicit UsageError(std::vector<Problem> problems)
       : UsageError(Bounded{}, bounded(std::move(problems))) {}
+  explicit UsageError(std::vector<std::string> lines) : UsageError(problems_of(std::move(lines))) {}
 
-  const std::vector<std::string>& problems() const noexcept { return problems_; }
+  const std::vector<Problem>& problems() const noexcept { return problems_; }
+  /// The line of each.
+  std::vector<std::string> lines() const {
+    std::vector<std::string> lines;
+    for (const Problem& problem : problems_) lines.push_back(problem.line());
+    return lines;
+  }
 
   static constexpr std::size_t kMostProblems = 100;
 
  private:
   struct Bounded {};
-  UsageError(Bounded /*tag*/, std::vector<std::string> problems)
+  UsageError(Bounded /*tag*/, std::vector<Problem> problems)
       : Error(join(problems)), problems_(std::move(problems)) {}
 
-  static std::vector<std::string> bounded(std::vector<std::string> problems) {
+  static std::vector<Problem> problems_of(std::vector<std::string> lines) {
+    std::vector<Problem> problems;
+    for (std::string& line : lines) problems.push_back({.reason = std::move(line)});
+    return problems;
+  }
+  static std::vector<Problem> bounded(std::vector<Problem> problems) {
     if (problems.size() <= kMostProblems) return problems;
     const std::size_t more = problems.size() - kMostProblems;
     problems.resize(kMostProblems);
-    problems.push_back("and " + std::to_string(more) + " more problems");
+    problems.push_back({.reason = "and " + std::to_string(more) + " more problems"});
     return problems;
   }
-  static std::string join(const std::vector<std::string>& problems) {
+  static std::string join(const std::vector<Problem>& problems) {
     std::string text;
-    for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+    for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + problem.line();
     return text;
   }
 
-  std::vector<std::string> problems_;
+  std::vector<Problem> problems_;
 };
 
 /// A scene file or scene value is invalid; problems() lists everything that is wrong with it.

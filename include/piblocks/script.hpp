@@ -105,7 +105,7 @@ class ScriptBuilder {
  public:
   ScriptBuilder();
   ~ScriptBuilder();
-  ScriptBuilder(const ScriptBuilder&) = delete;
+  ScriptBuilder(const ScriptBuilder& other);
   ScriptBuilder& operator=(const ScriptBuilder&) = delete;
 
   /// Reads a scene file; called once. It overwrites values set before it, values set later win.
@@ -115,9 +115,14 @@ class ScriptBuilder {
   void read_text(const std::string& origin, std::string_view text);
   /// Ignores a key of the scene file, so that it keeps its default. Call this before reading. The
   /// same key in a [[part]] is read all the same.
+  /// "body 2.label" is a property of the second [[body]], and "body 2" all of it.
   void leave_out(const std::string& key);
+  /// Ignores one of a list, wherever the list is set. Call this before reading.
+  /// @param item  as the item of a Problem
+  void leave_out(const std::string& key, const std::string& item);
   /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
-  /// whole film only, whether it is read before or after.
+  /// whole film only, whether it is read before or after. "body 2.mass" is the mass of the second
+  /// [[body]] of the file, whatever is left out of it; one more than there are is added.
   /// @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const std::string& text);
   /// The same with the texts of a list, such as the two of "view.x".

@@ -2,6 +2,7 @@
 // In: exact masses, positions, velocities. Out: everything that is wrong with them.
 #pragma once
 
+#include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
 
 #include <array>
@@ -68,12 +69,6 @@ System article_system(int digits, int base = kUsualBase);
 /// Most bodies of a system. A scene file has room for fewer: kMaxSceneFile_bytes in script.hpp.
 inline constexpr std::size_t kMaxBodies = 100'000;
 inline constexpr std::size_t kMaxWalls = 16;
-
-/// What is wrong with one value of a scene.
-struct Problem {
-  std::string key;     ///< as in a scene file: "red.mass"
-  std::string reason;  ///< with the value: "= -1: must be greater than 0"
-};
 
 /// Everything that is wrong with a system; empty if nothing is. Keys are "body 3.mass", counted
 /// from 1, or "blue.mass" of a body with that name; "wall 1.normal", "body" and "wall". If discs

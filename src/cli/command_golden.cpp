@@ -66,7 +66,7 @@ std::vector<References> references_of(const Command& options) {
       }
       all.emplace_back(fs::path(scene).stem(), builder, folder);
     } catch (const UsageError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      std::ranges::move(error.lines(), std::back_inserter(problems));
     }
   }
   for (auto one = all.begin(); one != all.end(); ++one) {
@@ -115,7 +115,7 @@ std::optional<GoldenResult> attempt(const Act& act, const References& references
     return act(
         references, [&](const Progress& progress) { report.update(progress); }, stop);
   } catch (const UsageError& error) {
-    for (const std::string& problem : error.problems()) say("piblocks: {}{}\n", where, problem);
+    for (const std::string& problem : error.lines()) say("piblocks: {}{}\n", where, problem);
     code = worse_exit_code(code, kWrongUsage);
   } catch (const Error& error) {
     if (stop.stop_requested()) throw;

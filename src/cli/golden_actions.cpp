@@ -131,7 +131,7 @@ void note_failure(const std::string& what, GoldenFindings& findings, const std::
   } catch (const Interrupted&) {
     throw;
   } catch (const UsageError& error) {
-    for (const std::string& problem : error.problems()) {
+    for (const std::string& problem : error.lines()) {
       findings.add(Outcome::unreadable, name, fmt::format("{}: {}", what, problem));
     }
   } catch (const Error& error) {

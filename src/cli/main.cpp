@@ -35,7 +35,7 @@ int fail(std::string_view message, int exit_code) {
 
 int fail(const piblocks::UsageError& error) {
   if (piblocks::cli::stop_was_requested()) end_interrupted("interrupted");
-  for (const std::string& problem : error.problems()) fail(problem, kWrongUsage);
+  for (const std::string& problem : error.lines()) fail(problem, kWrongUsage);
   return kWrongUsage;
 }
 

@@ -236,16 +236,17 @@ void Font::check(std::string_view utf8, const char* what) const {
   std::string_view missing;
   for (std::string_view rest = utf8; !rest.empty();) {
     const auto [code, length_bytes] = first_character(rest);
-    if (length_bytes == 0) throw UsageError(fmt::format("{}: is not valid UTF-8", what));
+    if (length_bytes == 0) throw UsageError(what, "is not valid UTF-8");
     const bool is_known = has_glyph(code) || (face_ != Face::article && fallback().has_glyph(code));
     if (!is_known && missing.empty()) missing = rest.substr(0, length_bytes);
     rest.remove_prefix(length_bytes);
   }
   const std::string problem = shaping_problem(utf8);
-  if (!problem.empty()) throw UsageError(fmt::format("{}: {}", what, problem));
+  if (!problem.empty()) throw UsageError(what, problem);
   if (missing.empty()) return;
-  throw UsageError(fmt::format(
-      "{}: no embedded font has a glyph for '{}'; write it in other characters", what, missing));
+  throw UsageError(
+      what,
+      fmt::format("no embedded font has a glyph for '{}'; write it in other characters", missing));
 }
 
 double Font::width_em(std::string_view utf8) const {

@@ -134,9 +134,9 @@ class FramePlanner {
   FramePlan row(double read_outs_height_px) {
     if (view_.background == Background::transparent) {
       // Red would be seen behind the counter.
-      throw UsageError(
-          "view.background: low rows of a split screen cannot be transparent; use columns, or an "
-          "opaque background");
+      throw UsageError("view.background",
+                       "low rows of a split screen cannot be transparent; use columns, or an "
+                       "opaque background");
     }
     // Of equal width where counts are short, so that rows have one scale.
     const double counter_width =
@@ -237,10 +237,11 @@ class FramePlanner {
     place.size_px =
         std::min(largest, has_label_above_ ? room_px / counter_->count_em : beside_label);
     if (place.size_px < sizes_.type(style::kLeastType)) {
-      throw UsageError(fmt::format(
-          "view.theme: the digits of the count would be {:.1f} pixels high in {}x{}, which cannot "
-          "be read; use the theme 'article', fewer digits or a larger frame",
-          std::max(0.0, place.size_px), view_.width_px, view_.height_px));
+      throw UsageError(
+          "view.theme",
+          fmt::format("the digits of the count would be {:.1f} pixels high in {}x{}, which cannot "
+                      "be read; use the theme 'article', fewer digits or a larger frame",
+                      std::max(0.0, place.size_px), view_.width_px, view_.height_px));
     }
     place.room_px = counter_->count_em * place.size_px;
     return place.room_px + (has_label_above_ ? 0 : counter_->label_px);
@@ -348,19 +349,23 @@ class FramePlanner {
     const Rect& panel = plan_.panels.front();
     if (std::min(panel.width, panel.height) >= least) return;
     const std::size_t count = show_.panels.size();
-    throw UsageError(fmt::format(
-        "show.panels: {} into {}x{}; {}make the frame larger",
-        count == 1 ? "a diagram does not fit" : fmt::format("{} diagrams do not fit", count),
-        view_.width_px, view_.height_px, count == 1 ? "" : "leave some out, or "));
+    throw UsageError(
+        "show.panels",
+        fmt::format(
+            "{} into {}x{}; {}make the frame larger",
+            count == 1 ? "a diagram does not fit" : fmt::format("{} diagrams do not fit", count),
+            view_.width_px, view_.height_px, count == 1 ? "" : "leave some out, or "));
   }
 
   [[noreturn]] void throw_no_room() const {
     const std::vector<std::string> names = shown_element_names(context_.scene);
-    throw UsageError(fmt::format(
-        "show: {} {} too little room for the blocks in {}x{}; leave something out, or make the "
-        "frame higher",
-        fmt::join(names, ", "), names.size() == 1 ? "leaves" : "leave", view_.width_px,
-        view_.height_px));
+    throw UsageError(
+        "show",
+        fmt::format(
+            "{} {} too little room for the blocks in {}x{}; leave something out, or make the "
+            "frame higher",
+            fmt::join(names, ", "), names.size() == 1 ? "leaves" : "leave", view_.width_px,
+            view_.height_px));
   }
 
   const LayoutContext& context_;

@@ -27,10 +27,12 @@ double fitted_px(const std::string& text, double size_px, double width_px, const
   font.check(text, "card");
   const double fitted = std::min(size_px, width_px / font.width_em(text));
   if (fitted >= kLeastShrink * size_px) return fitted;
-  throw UsageError(fmt::format(
-      "card: '{}' is too long to be read in {:.0f} pixels; break it into lines, or make the frame "
-      "wider",
-      text, width_px));
+  throw UsageError(
+      "card",
+      fmt::format(
+          "'{}' is too long to be read in {:.0f} pixels; break it into lines, or make the frame "
+          "wider",
+          text, width_px));
 }
 
 /// A smaller cell shows nothing.
@@ -214,8 +216,8 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
   const int n = static_cast<int>(count);
   const int cell_px = (length - (n - 1) * line_px) / n;
   if (std::min(cell_px, breadth) < kLeastCell_px) {
-    throw UsageError(fmt::format("compare: {} runs do not fit into {}x{}; make the frame larger",
-                                 count, view.width_px, view.height_px));
+    throw UsageError("compare", fmt::format("{} runs do not fit into {}x{}; make the frame larger",
+                                            count, view.width_px, view.height_px));
   }
   const auto place = [is_wide](int along, int across, int along_px, int across_px) {
     return is_wide ? PixelRect{along, across, along_px, across_px}

@@ -29,9 +29,10 @@ std::vector<std::string> break_lines(const Font& font, const std::string& text,
 }
 
 void throw_too_long(const char* key, const std::string& text, double room_px) {
-  throw UsageError(fmt::format(
-      "{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or make the frame wider", key,
-      text, room_px));
+  throw UsageError(
+      key, fmt::format(
+               "'{}' is too long to be read in {:.0f} pixels; shorten it, or make the frame wider",
+               text, room_px));
 }
 
 void check_readable(const LayoutContext& context, const char* key, const std::string& text) {
@@ -39,10 +40,10 @@ void check_readable(const LayoutContext& context, const char* key, const std::st
   if (context.sizes.short_side >= kLeastFrame_px) return;
   const View& view = context.scene.view;
   throw UsageError(
-      fmt::format("{}: '{}' cannot be read in a frame of {}x{}; leave it out, or make the frame "
-                  "{} pixels {} or more",
-                  key, text, view.width_px, view.height_px, kLeastFrame_px,
-                  view.height_px < view.width_px ? "high" : "wide"));
+      key, fmt::format("'{}' cannot be read in a frame of {}x{}; leave it out, or make the frame "
+                       "{} pixels {} or more",
+                       text, view.width_px, view.height_px, kLeastFrame_px,
+                       view.height_px < view.width_px ? "high" : "wide"));
 }
 
 }  // namespace piblocks

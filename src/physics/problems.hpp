@@ -39,6 +39,12 @@ class SceneProblems {
                const Args&... args) {
     if (!holds) add(key, reason, args...);
   }
+  /// About one of a key's list. @param item  as of Problem
+  template <typename... Args>
+  void add_item(const std::string& key, const std::string& item,
+                fmt::format_string<const Args&...> reason, const Args&... args) {
+    list_.push_back({key, fmt::format(reason, args...), item});
+  }
   void require_positive(const std::string& key, const Rational& value) {
     require(value > 0, key, "= {}: must be greater than 0", value);
   }

@@ -75,8 +75,8 @@ class SteppedLog final : public Log {
   Integer last() const override {
     if (never_ends_) {
       if (horizon_) return count_at(*horizon_);
-      throw UsageError(
-          "time.to: these bodies may collide for ever; say until when, as time.to = 10");
+      throw UsageError("time.to",
+                       "these bodies may collide for ever; say until when, as time.to = 10");
     }
     compute([&] { return is_complete_; });
     const std::shared_lock lock(mutex_);

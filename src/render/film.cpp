@@ -182,8 +182,9 @@ FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& m
     : card_(card) {
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > to_integer(kMaxFrames)) {
-    throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
-                                 readable(frames), readable(to_integer(kMaxFrames))));
+    throw UsageError(
+        Problem{"seconds", fmt::format("= {}: {} frames are more than {}", to_text(card.length_s),
+                                       readable(frames), readable(to_integer(kMaxFrames)))});
   }
   frame_count_ = frames.get_si();
   if (making.use == FilmUse::pictures) card_frame_ = card_frames(card, film);
@@ -256,13 +257,14 @@ Film::Film(const Script& script, const FilmMaking& making) : view_(view_of(scrip
 }
 
 void Film::add_segments(const Storyboard& story, const FilmMaking& making) {
-  std::vector<std::string> problems;
+  std::vector<Problem> problems;
   for (std::size_t i = 0; i < story.segments.size(); ++i) {
     try {
       segments_.push_back({made_from(story.segments[i], view_, making)});
     } catch (const UsageError& error) {
-      for (const std::string& problem : error.problems()) {
-        problems.push_back(fmt::format("{}: {}", place_of(story, i), problem));
+      for (Problem problem : error.problems()) {
+        problem.origin = place_of(story, i) + (problem.origin.empty() ? "" : ": ") + problem.origin;
+        problems.push_back(std::move(problem));
       }
     }
   }
@@ -270,7 +272,7 @@ void Film::add_segments(const Storyboard& story, const FilmMaking& making) {
 }
 
 void Film::place_segments(const Storyboard& story) {
-  std::vector<std::string> problems;
+  std::vector<Problem> problems;
   std::int64_t before = 0;  // frames of the segment before that do not belong to its own fade
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     PlacedSegment& placed = segments_[i];
@@ -279,10 +281,13 @@ void Film::place_segments(const Storyboard& story) {
     const Integer fade = floor(fade_s * view_.frame_rate + Rational(1, 2));
     const std::int64_t room = i == 0 ? 0 : std::min(before, own - 1);
     if (fade > to_integer(room)) {
-      problems.push_back(fmt::format(
-          "{}: fade = {}: must take at most {} frames, not {}: a fade must be shorter than "
-          "its own part and the part before, and must not overlap the fade of the part before",
-          place_of(story, i), to_text(fade_s), room, readable(fade)));
+      problems.push_back(Problem{
+          .key = "fade",
+          .reason = fmt::format(
+              "= {}: must take at most {} frames, not {}: a fade must be shorter than "
+              "its own part and the part before, and must not overlap the fade of the part before",
+              to_text(fade_s), room, readable(fade)),
+          .origin = place_of(story, i)});
     } else {
       placed.fade_frames = fade.get_si();
     }

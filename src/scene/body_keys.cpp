@@ -111,60 +111,99 @@ BoxSide parse_box_side(const Values& values) {
 void BodyDraft::read(const std::string& path, const std::vector<TomlTable>& tables,
                      ProblemLines& problems) {
   path_ = path;
-  bodies_ = {};
-  lines_.clear();
+  tables_.clear();
   if (tables.size() > kMaxBodies) {
     problems.add(path, tables[kMaxBodies].line,
-                 fmt::format("there must be at most {} of them", kMaxBodies));
-    return;
+                 {.reason = fmt::format("there must be at most {} of them", kMaxBodies)});
+  } else {
+    tables_ = tables;
   }
-  for (const TomlTable& table : tables) read_body(table, problems);
+  read_all(problems);
 }
 
-void BodyDraft::read_body(const TomlTable& table, ProblemLines& problems) {
-  const std::size_t number = bodies_.bodies.size() + 1;
-  const auto problem = [&](std::size_t line, const std::string& text) {
-    problems.add(path_, line, fmt::format("body {}{}", number, text));
+void BodyDraft::set(const std::string& origin, const std::string& key, const Values& values,
+                    ProblemLines& problems) {
+  const std::size_t number = number_in(key, "body ");
+  const std::size_t dot = key.find('.');
+  if (dot == std::string::npos) throw UsageError("must be a property, as body 2.mass");
+  if (tables_.empty()) throw UsageError("there is no [[body]]");
+  if (number > tables_.size() + 1) {
+    throw UsageError(fmt::format("there are {} bodies", tables_.size()));
+  }
+  if (number > tables_.size()) tables_.emplace_back();
+  std::vector<TomlEntry>& entries = tables_[number - 1].entries;
+  const std::string property = key.substr(dot + 1);
+  std::erase_if(entries, [&](const TomlEntry& entry) { return entry.key == property; });
+  entries.push_back({property, values, {}, 0, {}});
+  origins_[key] = origin;
+  left_out_.erase(key);
+  // What is wrong with the bodies is found again.
+  problems.drop([](const Problem& problem) { return number_in(problem.key, "body ") > 0; });
+  read_all(problems);
+}
+
+void BodyDraft::read_all(ProblemLines& problems) {
+  bodies_ = {};
+  numbers_.clear();
+  for (std::size_t number = 1; number <= tables_.size(); ++number) {
+    const std::string key = fmt::format("body {}", number);
+    const bool is_last = number == tables_.size() && numbers_.empty();
+    const bool is_out = left_out_.contains(key);
+    if (is_out && is_last) problems.add(path_, {key, ": is the only one, and stays"});
+    if (!is_out || is_last) read_body(number, problems);
+  }
+}
+
+void BodyDraft::read_body(std::size_t number, ProblemLines& problems) {
+  const TomlTable& table = tables_[number - 1];
+  const std::string name = fmt::format("body {}", number);
+  const auto add = [&](std::size_t line, Problem problem) {
+    const auto origin = origins_.find(problem.key);
+    if (origin != origins_.end()) return problems.add(origin->second, std::move(problem));
+    if (line == 0) return problems.add(name, std::move(problem));  // of a body that was added
+    problems.add(path_, line, std::move(problem));
   };
+  const auto problem = [&](const std::string& text) { add(table.line, {name, text}); };
   ReadBody read;
   for (const TomlEntry& entry : table.entries) {
+    const std::string full_key = fmt::format("{}.{}", name, entry.key);
+    if (left_out_.contains(full_key)) continue;
     if (entry.key.starts_with("position")) read.has_position = true;  // perhaps one with a problem
     const auto* const key =
         std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
     if (key == kBodyKeys.end()) {
-      problem(entry.line, fmt::format(".{}: unknown key{}", entry.key,
-                                      did_you_mean(entry.key, names_of(kBodyKeys))));
+      add(entry.line,
+          {full_key, fmt::format(": unknown key{}", did_you_mean(entry.key, names_of(kBodyKeys)))});
     } else if (!entry.problem.empty()) {
-      problem(entry.line, fmt::format(".{}: {}", entry.key, entry.problem));
+      add(entry.line, {full_key, ": " + entry.problem});
     } else {
       try {
         key->set(read, entry.values);
       } catch (const UsageError& error) {
-        problem(entry.line,
-                fmt::format(".{} = {}: {}", entry.key, joined(entry.values), error.what()));
+        add(entry.line, unread(full_key, entry.values, error));
       }
     }
   }
-  if (!read.has_position) problem(table.line, ".position: is missing");
+  if (!read.has_position) add(table.line, {name + ".position", ": is missing"});
   if (read.is_block && read.is_disc) {
-    problem(table.line, ": has a width and a radius; blocks have widths, discs have radii");
+    problem(": has a width and a radius; blocks have widths, discs have radii");
   }
   if (read.is_block && read.is_plane) {
-    problem(table.line,
-            ": is a block, and blocks move along x alone; give one number for "
-            "position and velocity, or a radius instead of the width");
+    problem(
+        ": is a block, and blocks move along x alone; give one number for "
+        "position and velocity, or a radius instead of the width");
   }
   const int dimensions = read.is_disc || read.is_plane ? 2 : 1;
   if (bodies_.bodies.empty()) {
     bodies_.dimensions = dimensions;
   } else if (bodies_.dimensions != dimensions) {
-    problem(table.line, fmt::format(": is a {}, and body 1 is a {}; all must be of one kind",
-                                    dimensions == 1 ? "block" : "disc",
-                                    bodies_.dimensions == 1 ? "block" : "disc"));
+    problem(fmt::format(": is a {}, and body 1 is a {}; all must be of one kind",
+                        dimensions == 1 ? "block" : "disc",
+                        bodies_.dimensions == 1 ? "block" : "disc"));
   }
   bodies_.bodies.push_back(std::move(read.body));
   bodies_.styles.push_back(std::move(read.style));
-  lines_.push_back(table.line);
+  numbers_.push_back(number);
 }
 
 void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>& tables,
@@ -179,9 +218,10 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
     for (const TomlEntry& entry : table.entries) {
       const bool is_point = entry.key == "point";
       if (!is_point && entry.key != "normal") {
-        problems.add(path, entry.line,
-                     fmt::format("wall.{}: unknown key{}", entry.key,
-                                 did_you_mean(entry.key, {"point", "normal"})));
+        problems.add(
+            path, entry.line,
+            {"wall." + entry.key,
+             fmt::format(": unknown key{}", did_you_mean(entry.key, {"point", "normal"}))});
         continue;
       }
       ++found;
@@ -191,12 +231,12 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
             ExactVector{parse_rational(entry.values[0]), parse_rational(entry.values[1])};
       } catch (const UsageError& error) {
         is_read = false;
-        problems.add(
-            path, entry.line,
-            fmt::format("wall.{} = {}: {}", entry.key, joined(entry.values), error.what()));
+        problems.add(path, entry.line, unread("wall." + entry.key, entry.values, error));
       }
     }
-    if (found != 2) problems.add(path, table.line, "wall: needs a point on it and its normal");
+    if (found != 2) {
+      problems.add(path, table.line, {"wall", ": needs a point on it and its normal"});
+    }
     if (!is_read || found != 2) continue;  // what follows would only repeat it
     slanted_.push_back(std::move(wall));
     slanted_lines_.push_back(table.line);
@@ -214,15 +254,32 @@ void BodyDraft::put_into(Scene& scene) const {
   scene.styles = bodies_.styles;
 }
 
+std::string BodyDraft::key_in_file(const std::string& key) const {
+  const std::size_t number = number_in(key, "body ");
+  if (number == 0 || number > numbers_.size() || numbers_[number - 1] == number) return key;
+  const std::size_t dot = key.find('.');
+  return fmt::format("body {}{}", numbers_[number - 1],
+                     dot == std::string::npos ? "" : key.substr(dot));
+}
+
 std::string BodyDraft::origin_of(const std::string& key) const {
-  const auto origin = [&](const std::vector<std::size_t>& lines, std::size_t number) {
-    const bool is_there = number > 0 && number <= lines.size();
-    return is_there ? fmt::format("{}:{}", path_, lines[number - 1]) : std::string();
+  if (const auto set = origins_.find(key); set != origins_.end()) return set->second;
+  const auto origin = [&](std::size_t count, std::size_t number, const auto& line_of) {
+    const bool is_there = number > 0 && number <= count;
+    return is_there ? fmt::format("{}:{}", path_, line_of(number - 1)) : std::string();
   };
-  if (const std::size_t body = number_in(key, "body ")) return origin(lines_, body);
-  if (const std::size_t wall = number_in(key, "wall ")) return origin(slanted_lines_, wall);
-  if (key == "wall") return origin(slanted_lines_, 1);
-  return origin(lines_, key == "body" ? 1 : 0);
+  const auto body = [&](std::size_t number) {
+    const bool is_added = number > 0 && number <= tables_.size() && tables_[number - 1].line == 0;
+    if (is_added) return fmt::format("body {}", number);
+    return origin(tables_.size(), number, [&](std::size_t i) { return tables_[i].line; });
+  };
+  const auto wall = [&](std::size_t number) {
+    return origin(slanted_lines_.size(), number, [&](std::size_t i) { return slanted_lines_[i]; });
+  };
+  if (const std::size_t number = number_in(key, "body ")) return body(number);
+  if (const std::size_t number = number_in(key, "wall ")) return wall(number);
+  if (key == "wall") return wall(1);
+  return body(key == "body" ? 1 : 0);
 }
 
 std::size_t number_in(std::string_view text, std::string_view beginning) {

@@ -5,6 +5,8 @@
 #include <piblocks/scene.hpp>
 
 #include <cstddef>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,13 +34,21 @@ class BodyDraft {
   /// Replaces the slanted walls by those of the tables.
   void read_walls(const std::string& path, const std::vector<TomlTable>& tables,
                   ProblemLines& problems);
+  /// Sets a property, as "body 2.mass"; the number after the last one is that of a new body.
+  /// @throws UsageError if there is no such property
+  void set(const std::string& origin, const std::string& key, const Values& values,
+           ProblemLines& problems);
+  /// Ignores "body 2.mass", or all of "body 2", in tables that are read later. Numbers stay.
+  void leave_out(const std::string& key) { left_out_.insert(key); }
   void set_box_x(BoxSide side) { x_ = std::move(side); }
   void set_box_y(BoxSide side) { y_ = std::move(side); }
 
-  bool empty() const noexcept { return bodies_.bodies.empty(); }
+  bool empty() const noexcept { return tables_.empty(); }
   /// Replaces the bodies of a scene, and walls.
   void put_into(Scene& scene) const;
   bool has_slanted_walls() const noexcept { return !slanted_.empty(); }
+  /// The same key with the number that a body has in the file.
+  std::string key_in_file(const std::string& key) const;
   /// File and line of the table for this key of problems_of(), as "body 3.mass"; empty if there is
   /// none.
   std::string origin_of(const std::string& key) const;
@@ -50,11 +60,15 @@ class BodyDraft {
     int dimensions = 1;
   };
 
-  void read_body(const TomlTable& table, ProblemLines& problems);
+  void read_all(ProblemLines& problems);
+  void read_body(std::size_t number, ProblemLines& problems);
 
   std::string path_;
+  std::vector<TomlTable> tables_;               // of the file, and of bodies that were added
+  std::set<std::string> left_out_;              // keys
+  std::map<std::string, std::string> origins_;  // of properties that were set
   Read bodies_;
-  std::vector<std::size_t> lines_;
+  std::vector<std::size_t> numbers_;  // of each, in tables_
   std::optional<BoxSide> x_;
   std::optional<BoxSide> y_;
   std::vector<Wall> slanted_;

@@ -106,13 +106,17 @@ std::vector<Move> automatic_windows(const Scene& scene, const Log& log, const Sp
   return windows;
 }
 
-void check(const Move& window, const Span& span) {
-  const std::string name = fmt::format("{}: the window from {} to {}", kSlowMotionKey,
-                                       to_text(window.from), to_text(window.to));
-  if (window.from >= window.to) throw UsageError(name + " must end after it begins");
+/// @param item  its text, as of Problem
+void check(const Move& window, const Span& span, const std::string& item) {
+  const std::string name =
+      fmt::format("the window from {} to {}", to_text(window.from), to_text(window.to));
+  if (window.from >= window.to)
+    throw UsageError(kSlowMotionKey, name + " must end after it begins", item);
   if (window.from < span.to && window.to > span.from) return;
-  throw UsageError(fmt::format("{} is outside of what is shown, {} to {}", name, to_text(span.from),
-                               to_text(span.to)));
+  throw UsageError(kSlowMotionKey,
+                   fmt::format("{} is outside of what is shown, {} to {}", name, to_text(span.from),
+                               to_text(span.to)),
+                   item);
 }
 
 /// In order, apart, inside the span. A window is half-open: from <= time < to.
@@ -120,15 +124,17 @@ std::vector<Move> slow_windows(const Scene& scene, const Log& log, const Span& s
   std::vector<Move> windows;
   if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log, span);
   for (const SlowMotion& slow : scene.pacing.slow_motion) {
-    windows.push_back({time_of(slow.from, kSlowMotionKey, log),
-                       time_of(slow.to, kSlowMotionKey, log), slow.factor});
-    check(windows.back(), span);
+    const std::string item = exact_text(slow);
+    windows.push_back({time_of(slow.from, kSlowMotionKey, log, item),
+                       time_of(slow.to, kSlowMotionKey, log, item), slow.factor});
+    check(windows.back(), span, item);
   }
   std::ranges::sort(windows, {}, &Move::from);
   for (std::size_t i = 1; i < windows.size(); ++i) {
     if (windows[i].from >= windows[i - 1].to) continue;
-    throw UsageError(fmt::format("{}: windows overlap at {}; let one begin where the other ends",
-                                 kSlowMotionKey, to_text(windows[i].from)));
+    throw UsageError(kSlowMotionKey,
+                     fmt::format("windows overlap at {}; let one begin where the other ends",
+                                 to_text(windows[i].from)));
   }
   for (Move& window : windows) {
     window.from = std::max(window.from, span.from);
@@ -142,10 +148,12 @@ std::vector<Move> slow_windows(const Scene& scene, const Log& log, const Span& s
 std::vector<Move> freezes_of(const Scene& scene, const Log& log, const Span& span) {
   std::vector<Move> freezes;
   for (const Freeze& freeze : scene.pacing.freezes) {
-    const Rational time = time_of(freeze.at, "time.freeze", log);
+    const Rational time = time_of(freeze.at, "time.freeze", log, exact_text(freeze));
     if (time < span.from || time > span.to) {
-      throw UsageError(fmt::format("time.freeze: {} is outside of what is shown, {} to {}",
-                                   exact_text(freeze.at), to_text(span.from), to_text(span.to)));
+      throw UsageError("time.freeze",
+                       fmt::format("{} is outside of what is shown, {} to {}",
+                                   exact_text(freeze.at), to_text(span.from), to_text(span.to)),
+                       exact_text(freeze));
     }
     freezes.push_back({time, time, 1, whole_frames(freeze.length_s, scene.view.frame_rate)});
   }
@@ -155,11 +163,11 @@ std::vector<Move> freezes_of(const Scene& scene, const Log& log, const Span& spa
 
 }  // namespace
 
-Rational time_of(const Instant& instant, const char* key, const Log& log) {
+Rational time_of(const Instant& instant, const char* key, const Log& log, const std::string& item) {
   try {
     return time_of(instant, log);
   } catch (const UsageError& error) {
-    throw UsageError(fmt::format("{}: {}", key, error.what()));
+    throw UsageError(key, error.what(), item);
   }
 }
 

@@ -20,7 +20,9 @@ struct Move {
 };
 
 /// time_of(instant, log) for the value of a key, which messages name.
-Rational time_of(const Instant& instant, const char* key, const Log& log);
+/// @param item  that it is of, as in Problem
+Rational time_of(const Instant& instant, const char* key, const Log& log,
+                 const std::string& item = {});
 
 /// The speed that windows and eases are measured by. A duration sets the speed once they are known,
 /// and scales them.

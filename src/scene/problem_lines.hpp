@@ -1,11 +1,12 @@
 // Everything that is wrong with a scene file and options, as it is found.
-// In: where a value comes from, and what is wrong with it. Out: a line for each problem.
+// In: where a value comes from, and what is wrong with it. Out: the problems, each once.
 #pragma once
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,31 +17,37 @@ namespace piblocks {
 /// In the order in which they are found. A problem of every part is there once.
 class ProblemLines {
  public:
+  void add(Problem problem) {
+    if (known_.insert(problem.line()).second) list_.push_back(std::move(problem));
+  }
   /// @param origin  such as "--size" or "story.toml:12"
-  void add(const std::string& origin, const std::string& text) {
-    add_line(fmt::format("{}: {}", origin, text));
+  void add(const std::string& origin, Problem problem) {
+    problem.origin = origin;
+    add(std::move(problem));
   }
   /// @param line  of the file
-  void add(const std::string& path, std::size_t line, const std::string& text) {
-    add(fmt::format("{}:{}", path, line), text);
+  void add(const std::string& path, std::size_t line, Problem problem) {
+    add(fmt::format("{}:{}", path, line), std::move(problem));
   }
   void add(const ProblemLines& more) {
-    for (const std::string& line : more.lines_) add_line(line);
+    for (const Problem& problem : more.list_) add(problem);
+  }
+  /// Forgets some of them.
+  void drop(const std::function<bool(const Problem&)>& is_dropped) {
+    std::erase_if(list_, is_dropped);
+    known_.clear();
+    for (const Problem& problem : list_) known_.insert(problem.line());
   }
 
-  bool empty() const noexcept { return lines_.empty(); }
+  bool empty() const noexcept { return list_.empty(); }
   /// @throws SceneError with all of them, if there are any.
   void require_none() const {
-    if (!lines_.empty()) throw SceneError(lines_);
+    if (!list_.empty()) throw SceneError(list_);
   }
 
  private:
-  void add_line(const std::string& line) {
-    if (known_.insert(line).second) lines_.push_back(line);
-  }
-
-  std::vector<std::string> lines_;
-  std::set<std::string> known_;
+  std::vector<Problem> list_;
+  std::set<std::string> known_;  ///< lines
 };
 
 }  // namespace piblocks

@@ -117,7 +117,7 @@ void check_each_once(const char* key, const std::vector<Value>& list, const auto
                      SceneProblems& problems) {
   for (auto value = list.begin(); value != list.end(); ++value) {
     if (std::find(list.begin(), value, *value) == value) continue;
-    problems.add(key, "has '{}' more than once", name_of(*value));
+    problems.add_item(key, name_of(*value), "has '{}' more than once", name_of(*value));
     return;
   }
 }
@@ -150,20 +150,23 @@ void check_show(const Show& show, SceneProblems& problems) {
 void check_fits(const Scene& scene, SceneProblems& problems) {
   const Show& show = scene.show;
   const bool is_plane = scene.system.dimensions == 2;
-  problems.require(is_plane || !show.has(Overlay::trails), "show.overlays",
-                   "'trails' is for discs; blocks have the diagram 'time'");
-  problems.require(is_plane || !show.has(Overlay::angles), "show.overlays",
-                   "'angles' is for walls of discs; leave it out");
-  problems.require(!is_plane || !show.has(Overlay::ruler), "show.overlays",
-                   "'ruler' is for blocks on a line");
+  const auto require_for = [&](bool is_for, Overlay overlay, const char* reason) {
+    const std::string name = exact_text(overlay);
+    if (!is_for && show.has(overlay))
+      problems.add_item("show.overlays", name, "'{}' {}", name, reason);
+  };
+  require_for(is_plane, Overlay::trails, "is for discs; blocks have the diagram 'time'");
+  require_for(is_plane, Overlay::angles, "is for walls of discs; leave it out");
+  require_for(!is_plane, Overlay::ruler, "is for blocks on a line");
   const bool is_pair = two_blocks_of(scene.system).has_value();
   const auto require_pair = [&](bool is_there, const char* key, const std::string& what) {
-    problems.require(is_pair || !is_there, key,
-                     "has {}, which needs two blocks beside one wall or fixed block, and no more; "
-                     "leave it out",
-                     what);
+    if (is_pair || !is_there) return;
+    problems.add_item(key, what,
+                      "has '{}', which needs two blocks beside one wall or fixed block, and no "
+                      "more; leave it out",
+                      what);
   };
-  require_pair(show.has(Overlay::digits), "show.overlays", "'digits'");
+  require_pair(show.has(Overlay::digits), "show.overlays", "digits");
   if (show.loupe && show.loupe->is_on) {
     problems.require(!is_plane, "show.loupe", "is for blocks on a line; leave it out");
     problems.require(is_plane || is_pair || show.loupe->window, "show.loupe",
@@ -172,15 +175,16 @@ void check_fits(const Scene& scene, SceneProblems& problems) {
                      exact_text(*show.loupe));
   }
   for (const Panel panel : show.panels) {
+    const std::string name = exact_text(panel);
     const bool is_for_all = panel == Panel::count || panel == Panel::speeds;
     const bool is_for_line = panel == Panel::time || panel == Panel::conservation;
     if (panel == Panel::separation) {
-      problems.require(is_plane, "show.panels", "'separation' is for discs");
+      if (!is_plane) problems.add_item("show.panels", name, "'{}' is for discs", name);
     } else if (is_plane && !is_for_all) {
-      problems.add("show.panels", "'{}' is not for discs, which have count, speeds and separation",
-                   exact_text(panel));
+      problems.add_item("show.panels", name,
+                        "'{}' is not for discs, which have count, speeds and separation", name);
     } else if (!is_for_all && !is_for_line) {
-      require_pair(true, "show.panels", fmt::format("'{}'", exact_text(panel)));
+      require_pair(true, "show.panels", name);
     }
   }
   const bool is_early = scene.time.from.is_time() && scene.time.from.offset < 0;
@@ -197,10 +201,10 @@ void check_elastic(const Scene& scene, SceneProblems& problems) {
       "has '{}', which needs elastic collisions; leave it out, or leave out the restitution";
   for (const Panel panel : scene.show.panels) {
     if (panel == Panel::time || panel == Panel::count) continue;
-    problems.add("show.panels", kReason, exact_text(panel));
+    problems.add_item("show.panels", exact_text(panel), kReason, exact_text(panel));
   }
-  problems.require(!scene.show.has(Overlay::digits), "show.overlays", kReason,
-                   exact_text(Overlay::digits));
+  const std::string digits = exact_text(Overlay::digits);
+  if (scene.show.has(Overlay::digits)) problems.add_item("show.overlays", digits, kReason, digits);
 }
 
 void check_golden(const Golden& golden, SceneProblems& problems) {

@@ -16,16 +16,19 @@ namespace piblocks {
 namespace {
 
 /// @param keys  that set the same value, of which a table may have only one.
-/// @return a message if the table has several of them; otherwise empty.
-std::string conflict_of(const TomlTable& table, std::vector<std::string_view> keys,
-                        const char* what) {
+/// @return a problem if the table has several of them.
+std::optional<Problem> conflict_of(const TomlTable& table, std::vector<std::string_view> keys,
+                                   const char* what) {
   std::erase_if(keys, [&](std::string_view key) {
     return std::ranges::count(table.entries, key, &TomlEntry::key) == 0;
   });
-  if (keys.size() < 2) return {};
-  return fmt::format("{} {} set {}; leave out {} of them", fmt::join(keys, " and "),
-                     keys.size() == 2 ? "both" : "all", what,
-                     keys.size() == 2 ? "one" : "all but one");
+  if (keys.size() < 2) return std::nullopt;
+  return Problem{.key = std::string(keys.front()),
+                 .reason = fmt::format("and {} {} set {}; leave out {} of them",
+                                       fmt::join(keys.begin() + 1, keys.end(), " and "),
+                                       keys.size() == 2 ? "both" : "all", what,
+                                       keys.size() == 2 ? "one" : "all but one"),
+                 .is_unread = true};
 }
 
 /// Of blocks and wall alike.
@@ -56,13 +59,13 @@ std::string key_of(const Scene& scene, const std::string& key) {
 }  // namespace
 
 void SceneDraft::read(const std::string& path, const TomlTable& table) {
-  for (const std::string& problem :
+  for (const auto& problem :
        {conflict_of(table, {"time.speed", "time.duration"}, "the speed"),
         conflict_of(table, {"digits", "mass-ratio", "red.mass"}, "the mass of red"),
         conflict_of(table, {"restitution", "blocks.restitution"}, "the restitution of the blocks"),
         conflict_of(table, {"restitution", "wall.restitution"}, "the restitution of the wall")}) {
-    if (problem.empty()) continue;
-    problems_.add(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, problem);
+    if (!problem) continue;
+    problems_.add(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, *problem);
   }
   for (const TomlEntry& entry : table.entries) set_entry(path, entry);
 }
@@ -72,9 +75,9 @@ void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
   if (entry.key == "body" || (entry.key == "wall" && !entry.tables.empty())) {
     read_bodies(path, entry);
   } else if (entry.key == "part" && !entry.tables.empty()) {
-    problems_.add(origin, "part: a single scene has no parts; this is a storyboard");
+    add_unread(origin, "part", "a single scene has no parts; this is a storyboard");
   } else if (const std::string unknown = about_unknown(entry); !unknown.empty()) {
-    problems_.add(origin, fmt::format("{}: {}", entry.key, unknown));
+    add_unread(origin, entry.key, unknown);
   } else if (entry.problem.empty()) {
     set(origin, entry.key, entry.values);
     // Relative to the folder of the scene file.
@@ -82,13 +85,18 @@ void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
       scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
     }
   } else {
-    problems_.add(origin, fmt::format("{}: {}", entry.key, entry.problem));
+    add_unread(origin, entry.key, entry.problem);
   }
+}
+
+void SceneDraft::add_unread(const std::string& origin, const std::string& key,
+                            const std::string& reason) {
+  problems_.add(origin, {.key = key, .reason = ": " + reason, .is_unread = true});
 }
 
 void SceneDraft::read_bodies(const std::string& path, const TomlEntry& entry) {
   if (entry.tables.empty()) {
-    problems_.add(path, entry.line, "body: is written [[body]], once for each");
+    problems_.add(path, entry.line, {"body", ": is written [[body]], once for each"});
   } else if (entry.key == "wall") {
     bodies_.read_walls(path, entry.tables, problems_);
   } else {
@@ -119,11 +127,12 @@ void SceneDraft::set(const std::string& origin, const std::string& key, const Va
   try {
     set_key(origin, key, values);
   } catch (const UsageError& error) {
-    problems_.add(origin, fmt::format("{} = {}: {}", key, joined(values), error.what()));
+    problems_.add(origin, unread(key, values, error));
   }
 }
 
 void SceneDraft::set_key(const std::string& origin, const std::string& key, const Values& values) {
+  if (number_in(key, "body ") > 0) return bodies_.set(origin, key, values, problems_);
   if (key == "digits") return set_mass_ratio(origin, parse_digits(values), std::nullopt);
   if (key == "mass-ratio") {
     return set_mass_ratio(origin, std::nullopt, parse_rational(single(values), kMaxMassBits));
@@ -140,7 +149,7 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
   const std::span<const SceneKey> keys = scene_keys();
   const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
   if (found == keys.end()) {
-    problems_.add(origin, fmt::format("{}: {}", key, about_unknown_key(key)));
+    add_unread(origin, key, about_unknown_key(key));
     return;
   }
   origins_[key] = origin;
@@ -226,15 +235,15 @@ void SceneDraft::check_bodies(ProblemLines& problems) const {
   for (const auto& [key, origin] : origins_) {
     if (!bodies_.empty() && is_short_key(key)) {
       const bool is_ratio = key == "red.mass" && (digits_ || mass_ratio_);
-      problems.add(origin,
-                   fmt::format("{}: this scene has [[body]] instead of blue, red and the wall",
-                               is_ratio ? (digits_ ? "digits" : "mass-ratio") : key));
+      problems.add(origin, {is_ratio ? (digits_ ? "digits" : "mass-ratio") : key,
+                            ": this scene has [[body]] instead of blue, red and the wall"});
     } else if (bodies_.empty() && key.starts_with("box.")) {
-      problems.add(origin, key + ": is the box of bodies, and there is no [[body]]");
+      problems.add(origin, {key, ": is the box of bodies, and there is no [[body]]"});
     }
   }
   if (bodies_.empty() && bodies_.has_slanted_walls()) {
-    problems.add(origin_of("wall"), "wall: [[wall]] is a wall of bodies, and there is no [[body]]");
+    problems.add(origin_of("wall"),
+                 {"wall", ": [[wall]] is a wall of bodies, and there is no [[body]]"});
   }
 }
 
@@ -242,11 +251,11 @@ Scene SceneDraft::make(ProblemLines& problems, bool of_film) const {
   Scene made = scene();
   ProblemLines found = problems_;
   check_bodies(found);
-  for (const auto& [key, reason] : problems_of(made)) {
-    if (of_film && !is_film_key(key)) continue;
-    if (!found.empty() && is_repeated(key)) continue;
-    const std::string named = key_of(made, key);
-    found.add(origin_of(named), fmt::format("{} {}", named, reason));
+  for (Problem problem : problems_of(made)) {
+    if (of_film && !is_film_key(problem.key)) continue;
+    if (!found.empty() && is_repeated(problem.key)) continue;
+    problem.key = bodies_.key_in_file(key_of(made, problem.key));
+    found.add(origin_of(problem.key), problem);
   }
   problems.add(found);
   return made;

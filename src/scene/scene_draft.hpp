@@ -24,6 +24,8 @@ class SceneDraft {
   void read(const std::string& path, const TomlTable& table);
   /// Sets one key. @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const Values& values);
+  /// Leaves out "body 2.label", a property of a [[body]] that is read later, or "body 2".
+  void leave_out_of_bodies(const std::string& key) { bodies_.leave_out(key); }
   /// A draft that begins with the values of this one, without its problems.
   SceneDraft next(const std::string& origin) const;
 
@@ -36,6 +38,7 @@ class SceneDraft {
   Scene scene() const;
   void set_entry(const std::string& path, const TomlEntry& entry);
   void read_bodies(const std::string& path, const TomlEntry& entry);
+  void add_unread(const std::string& origin, const std::string& key, const std::string& reason);
   void set_recoiling_wall(Scene& scene) const;
   void set_shutter(View& view) const;
   bool set_box(const std::string& key, const Values& values);

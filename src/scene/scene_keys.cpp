@@ -320,6 +320,25 @@ std::string joined(const Values& values) {
                                       : fmt::format("[{}]", fmt::join(values, ", ")));
 }
 
+std::string exact_item(std::string_view name, const std::string& text) {
+  const auto* const key = std::ranges::find(kKeys, name, &SceneKey::name);
+  if (key == kKeys.end()) return text;
+  try {
+    Scene scene;
+    key->set(scene, {text});
+    const Values values = key->get(scene);
+    return values.size() == 1 ? values.front() : text;
+  } catch (const UsageError&) {
+    return text;
+  }
+}
+
+Problem unread(const std::string& key, const Values& values, const std::exception& error) {
+  return {.key = key,
+          .reason = fmt::format("= {}: {}", joined(values), error.what()),
+          .is_unread = true};
+}
+
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
   std::vector<std::pair<std::string, std::string>> values;
   for (const SceneKey& key : scene_keys()) {

@@ -5,6 +5,7 @@
 
 #include <piblocks/script.hpp>
 
+#include <exception>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,12 @@ bool parse_bool(const Values& values);
 
 /// The values as one text for a message.
 std::string joined(const Values& values);
+
+/// A text of a list as the key's get() gives it; the text itself if it cannot be read.
+std::string exact_item(std::string_view key, const std::string& text);
+
+/// What is wrong with texts that mean no value of the key.
+Problem unread(const std::string& key, const Values& values, const std::exception& error);
 
 /// A title, a caption or a line of a card.
 void check_line(const char* key, std::string_view text, SceneProblems& problems);

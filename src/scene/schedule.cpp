@@ -20,10 +20,11 @@ Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves, 
   const Rational& duration_s = *scene.pacing.duration_s;
   Integer frames = ceil(duration_s * scene.view.frame_rate);
   if (scene.pacing.loop && frames < 2) {
-    throw UsageError(fmt::format(
-        "time.duration = {}: is shorter than two frames, of which a loop has one forward and one "
-        "back; make it longer",
-        to_text(duration_s)));
+    throw UsageError(Problem{
+        "time.duration",
+        fmt::format("= {}: is shorter than two frames, of which a loop has one forward and one "
+                    "back; make it longer",
+                    to_text(duration_s))});
   }
   if (scene.pacing.loop) frames = (frames + 1) / 2 + 1;  // see played_back()
   if (shows_end(scene)) frames -= 1;                     // one frame stands at the end
@@ -35,15 +36,17 @@ Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves, 
   const Rational moving_s = Rational(frames) / scene.view.frame_rate - still_s;
   if (moving_s > 0) return length / moving_s;
   if (still_s == 0) {
-    throw UsageError(fmt::format(
-        "time.duration = {}: is shorter than two frames; make it longer, or let the video end at a "
-        "time, as --to 10",
-        to_text(duration_s)));
+    throw UsageError(Problem{
+        "time.duration",
+        fmt::format("= {}: is shorter than two frames; make it longer, or let the video end at a "
+                    "time, as --to 10",
+                    to_text(duration_s))});
   }
-  throw UsageError(fmt::format(
-      "time.duration = {}: leaves no time for the motion, since the picture stands still for {} s; "
-      "make it longer, or --hold-start, --hold-end and --freeze shorter",
-      to_text(duration_s), to_text(still_s)));
+  throw UsageError(Problem{
+      "time.duration",
+      fmt::format("= {}: leaves no time for the motion, since the picture stands still for {} s; "
+                  "make it longer, or --hold-start, --hold-end and --freeze shorter",
+                  to_text(duration_s), to_text(still_s))});
 }
 
 /// Stretches from the video's start on.
@@ -90,7 +93,8 @@ bool has_span(const Scene& scene, const Log& log) {
 Span span_of(const Scene& scene, const Log& log) {
   if (scene.time.to.anchor == Instant::Anchor::last && log.last() == 0) {
     throw UsageError(
-        "time.to: no collision happens from time 0 on, so the video cannot end with the last one; "
+        "time.to",
+        "no collision happens from time 0 on, so the video cannot end with the last one; "
         "give a time, as time.to = 10");
   }
   return {time_of(scene.time.from, "time.from", log), time_of(scene.time.to, "time.to", log)};
@@ -99,9 +103,9 @@ Span span_of(const Scene& scene, const Log& log) {
 Schedule make_schedule(const Scene& scene, const Log& log) {
   const Span span = span_of(scene, log);
   if (span.to <= span.from) {
-    throw UsageError(
-        fmt::format("time.from = {}: is not before the end at {}; there is nothing to show",
-                    to_text(span.from), to_text(span.to)));
+    throw UsageError(Problem{
+        "time.from", fmt::format("= {}: is not before the end at {}; there is nothing to show",
+                                 to_text(span.from), to_text(span.to))});
   }
   const Rational& rate = scene.view.frame_rate;
   const Rational hold_start_s = whole_frames(scene.pacing.hold_start_s, rate);
@@ -132,10 +136,10 @@ Schedule make_schedule(const Scene& scene, const Log& log) {
 std::int64_t film_frames(const Schedule& schedule) {
   const Integer& frames = schedule.frame_count();
   if (frames <= to_integer(kMaxFrames)) return frames.get_si();
-  throw UsageError(
-      fmt::format("time: {} frames are more than {}; narrow them with --from and --to, or "
-                  "raise --speed",
-                  readable(frames), readable(to_integer(kMaxFrames))));
+  throw UsageError("time",
+                   fmt::format("{} frames are more than {}; narrow them with --from and --to, or "
+                               "raise --speed",
+                               readable(frames), readable(to_integer(kMaxFrames))));
 }
 
 FrameTime frame_time_alone(const Scene& scene, const Log& log, const Rational& time,

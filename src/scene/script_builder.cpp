@@ -48,13 +48,12 @@ class StoryReader {
   void read(const TomlTable& table) {
     Origins origins;
     Segment segment = segment_of(table, origins);
-    for (const auto& [key, reason] : problems_of(segment, story_.segments.empty())) {
-      const auto origin = origins.find(key);
+    for (const Problem& problem : problems_of(segment, story_.segments.empty())) {
+      const auto origin = origins.find(problem.key);
       const bool has_origin = origin != origins.end();
       // Text that could not be read has been reported already.
-      if (!has_origin && find(table, key) != nullptr) continue;
-      problems_.add(has_origin ? origin->second : segment.origin,
-                    fmt::format("{} {}", key, reason));
+      if (!has_origin && find(table, problem.key) != nullptr) continue;
+      problems_.add(has_origin ? origin->second : segment.origin, problem);
     }
     story_.segments.push_back(std::move(segment));
   }
@@ -155,13 +154,12 @@ class StoryReader {
       target = parse(entry->values);
       origins.emplace(key, origin_of(entry->line));
     } catch (const UsageError& error) {
-      problems_.add(path_, entry->line,
-                    fmt::format("{} = {}: {}", key, joined(entry->values), error.what()));
+      problems_.add(path_, entry->line, unread(key, entry->values, error));
     }
   }
 
   void add_problem(const TomlEntry& entry, const std::string& text) {
-    problems_.add(path_, entry.line, fmt::format("{}: {}", entry.key, text));
+    problems_.add(path_, entry.line, {entry.key, ": " + text});
   }
 
   std::string origin_of(std::size_t line) const { return fmt::format("{}:{}", path_, line); }
@@ -178,15 +176,19 @@ struct ScriptBuilder::Impl {
   SceneDraft film{"scene"};           // in a storyboard the values for all parts
   std::string path;                   // of the file, or what stands for it in messages
   std::vector<std::string> left_out;  // keys of the file
+  std::vector<std::pair<std::string, std::string>> left_out_items;  // keys and what of their lists
   std::vector<TomlTable> parts;
   ProblemLines problems;                                      // of entries that are no parts
   std::vector<std::pair<std::string, std::string>> set_keys;  // origin and key, by set()
 
   void read(const std::string& origin, TomlTable root);
   bool leave_out(TomlEntry& entry) const;
+  bool leave_out_items(const std::string& key, Values& values) const;
 };
 
 ScriptBuilder::ScriptBuilder() : impl_(std::make_unique<Impl>()) {}
+ScriptBuilder::ScriptBuilder(const ScriptBuilder& other)
+    : impl_(std::make_unique<Impl>(*other.impl_)) {}
 ScriptBuilder::~ScriptBuilder() = default;
 
 void ScriptBuilder::read_file(const std::string& path) { impl_->read(path, read_toml(path)); }
@@ -210,16 +212,32 @@ bool ScriptBuilder::Impl::leave_out(TomlEntry& entry) const {
   return !keeps_blocks && !keeps_wall;
 }
 
+/// Takes items out of the texts of a list. @returns whether nothing is left of it.
+bool ScriptBuilder::Impl::leave_out_items(const std::string& key, Values& values) const {
+  bool is_changed = false;
+  for (const auto& [of_key, item] : left_out_items) {
+    if (of_key != key) continue;
+    values = list_of(values);
+    is_changed |= std::erase_if(values, [&](const std::string& text) {
+                    return exact_item(key, text) == item;
+                  }) > 0;
+  }
+  if (!is_changed || !values.empty()) return false;
+  // Without its key the theme would choose overlays.
+  if (key == "show.overlays") values = {"none"};
+  return key != "show.overlays";
+}
+
 void ScriptBuilder::Impl::read(const std::string& origin, TomlTable root) {
   path = origin;
   TomlTable common{{}, root.line};
   for (TomlEntry& entry : root.entries) {
-    if (leave_out(entry)) continue;
+    if (leave_out(entry) || leave_out_items(entry.key, entry.values)) continue;
     const bool is_part = entry.key == "part";
     if (is_part && !entry.tables.empty()) {
       parts = std::move(entry.tables);
     } else if (is_part || entry.key.starts_with("part.")) {
-      problems.add(path, entry.line, "part: is written [[part]], once for each part");
+      problems.add(path, entry.line, {"part", ": is written [[part]], once for each part"});
     } else {
       common.entries.push_back(std::move(entry));
     }
@@ -227,12 +245,19 @@ void ScriptBuilder::Impl::read(const std::string& origin, TomlTable root) {
   film.read(path, common);
   if (parts.size() > kMaxSegments) {
     problems.add(path, parts[kMaxSegments].line,
-                 fmt::format("part: there must be at most {} of them", kMaxSegments));
+                 {"part", fmt::format(": there must be at most {} of them", kMaxSegments)});
     parts.resize(kMaxSegments);
   }
 }
 
-void ScriptBuilder::leave_out(const std::string& key) { impl_->left_out.push_back(key); }
+void ScriptBuilder::leave_out(const std::string& key) {
+  if (number_in(key, "body ") > 0) return impl_->film.leave_out_of_bodies(key);
+  impl_->left_out.push_back(key);
+}
+
+void ScriptBuilder::leave_out(const std::string& key, const std::string& item) {
+  impl_->left_out_items.emplace_back(key, item);
+}
 
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::string& text) {
@@ -242,7 +267,9 @@ void ScriptBuilder::set(const std::string& origin, const std::string& key,
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::vector<std::string>& texts) {
   impl_->set_keys.emplace_back(origin, key);
-  impl_->film.set(origin, key, texts);
+  Values values = texts;
+  if (impl_->leave_out_items(key, values)) values = {""};
+  impl_->film.set(origin, key, values);
 }
 
 Script ScriptBuilder::build() const {
@@ -250,10 +277,11 @@ Script ScriptBuilder::build() const {
   ProblemLines problems = impl_->problems;
   for (const auto& [origin, key] : impl_->set_keys) {
     if (impl_->parts.empty() || is_film_key(key)) continue;
-    problems.add(origin, fmt::format("'{}' is a storyboard; put {} into it, for all parts or for "
-                                     "one. Options can set size, frame rate, theme, background and "
-                                     "sound of the whole film",
-                                     impl_->path, key));
+    problems.add(origin, {.reason = fmt::format(
+                              "'{}' is a storyboard; put {} into it, for all parts or for one. "
+                              "Options can set size, frame rate, theme, background and sound of "
+                              "the whole film",
+                              impl_->path, key)});
   }
   StoryReader reader(impl_->path, impl_->film, problems);
   for (const TomlTable& part : impl_->parts) reader.read(part);
@@ -264,7 +292,7 @@ Script ScriptBuilder::build() const {
 Scene ScriptBuilder::build_scene() const {
   ProblemLines problems = impl_->problems;
   if (!impl_->parts.empty()) {
-    problems.add(impl_->path, "is a storyboard; a scene has no [[part]]");
+    problems.add(impl_->path, {.reason = "is a storyboard; a scene has no [[part]]"});
   }
   Scene scene = impl_->film.make(problems);
   problems.require_none();

@@ -113,8 +113,9 @@ std::vector<std::string> problems_of(const Storyboard& story) {
     problems.push_back(fmt::format("storyboard: must have from 1 to {} parts", kMaxSegments));
   }
   const auto add = [&](const std::string& origin, const std::vector<Problem>& more) {
-    for (const auto& [key, reason] : more) {
-      problems.push_back(fmt::format("{}: {} {}", origin, key, reason));
+    for (Problem problem : more) {
+      problem.origin = origin;
+      problems.push_back(problem.line());
     }
   };
   Scene film;

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/descriptor.hpp"
 #include "core/text.hpp"
@@ -58,14 +59,18 @@ class SourceText {
   std::vector<std::string_view> lines_;
 };
 
+[[noreturn]] void fail(const std::string& path, std::int64_t line, std::string reason) {
+  throw SceneError(
+      Problem{.reason = std::move(reason), .origin = fmt::format("{}:{}", path, line)});
+}
+
 /// @throws SceneError that names the first line that is not UTF-8.
 void check_encoding(const std::string& path, std::string_view text) {
-  std::size_t line = 1;
+  std::int64_t line = 1;
   for (std::size_t begin = 0; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     if (!is_utf8(text.substr(begin, end - begin))) {
-      throw SceneError(
-          fmt::format("{}:{}: is not valid UTF-8; save the file in that encoding", path, line));
+      fail(path, line, "is not valid UTF-8; save the file in that encoding");
     }
     begin = end + 1;
   }
@@ -106,8 +111,7 @@ void check_keys(const std::string& path, std::string_view text) {
       end = std::min(text.find('\n', i), text.size());
     } else if (c == '.') {
       if (++dots >= kMostKeyParts) {
-        throw SceneError(
-            fmt::format("{}:{}: a key has more than {} parts", path, line, kMostKeyParts));
+        fail(path, line, fmt::format("a key has more than {} parts", kMostKeyParts));
       }
     } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
       dots = 0;
@@ -219,8 +223,7 @@ TomlTable parse_toml(const std::string& origin, std::string_view text) {
     root.line = 0;
     return root;
   } catch (const toml::parse_error& error) {
-    throw SceneError(
-        fmt::format("{}:{}: {}", origin, error.source().begin.line, error.description()));
+    fail(origin, error.source().begin.line, std::string(error.description()));
   }
 }
 

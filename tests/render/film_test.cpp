@@ -34,7 +34,7 @@ class FilmTest : public testing::Test {
     try {
       film(text);
     } catch (const UsageError& error) {
-      return error.problems();
+      return error.lines();
     }
     return {};
   }

@@ -50,7 +50,7 @@ class FileFixture : public testing::Test {
     try {
       action();
     } catch (const SceneError& error) {
-      return error.problems();
+      return error.lines();
     }
     return {};
   }

@@ -175,20 +175,25 @@ std::string pi_count(const LayoutContext& context) {
   const int base = scene.show.base;
   if (!places_of_pi(log.blocks(), base)) {
     if (is_of_theme) return {};
-    throw UsageError(fmt::format(
-        "show.overlays: there are no digits of pi to light up, since this scene does not count "
-        "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
-        base * base));
+    throw UsageError(
+        "show.overlays",
+        fmt::format(
+            "there are no digits of pi to light up, since this scene does not count "
+            "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
+            base * base),
+        exact_text(Overlay::digits));
   }
   if (!counted_pi(log.blocks(), log.last(), base).empty()) return count_text(log.last(), base);
   if (is_of_theme) return {};
   const std::string counted = log.last().get_str(base);
   std::string digits = pi_digits(base, counted.size());
   std::erase(digits, '.');
-  throw UsageError(fmt::format(
-      "show.overlays: there are no digits of pi to light up: this scene counts {} in base {}, and "
-      "pi begins with {}; leave out 'digits', or use more digits",
-      counted, base, digits));
+  throw UsageError(
+      "show.overlays",
+      fmt::format("there are no digits of pi to light up: this scene counts {} in base {}, and "
+                  "pi begins with {}; leave out 'digits', or use more digits",
+                  counted, base, digits),
+      exact_text(Overlay::digits));
 }
 
 std::size_t lit_length(std::string_view count, std::string_view expected) {

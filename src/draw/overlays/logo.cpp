@@ -20,10 +20,11 @@ ImageItem place_logo(const Rect& place, std::shared_ptr<const Image> logo) {
   const double width = scale * logo->width_px;
   const double height = scale * logo->height_px;
   if (std::min(width, height) < kLeastLogo_px || std::max(width, height) < kLeastLogoLength_px) {
-    throw UsageError(fmt::format(
-        "show.logo: a picture of {}x{} would be {:.1f}x{:.1f} pixels here; leave it out, make the "
-        "frame larger, or use a picture of another shape",
-        logo->width_px, logo->height_px, width, height));
+    throw UsageError(
+        "show.logo",
+        fmt::format("a picture of {}x{} would be {:.1f}x{:.1f} pixels here; leave it out, make the "
+                    "frame larger, or use a picture of another shape",
+                    logo->width_px, logo->height_px, width, height));
   }
   return {ItemId::logo,
           {place.right() - width, place.bottom() - height, width, height},

@@ -38,10 +38,10 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   }
   if (!gap->window && !gap->is_stage) return nullptr;
   const View& view = context.scene.view;
-  throw UsageError(
-      fmt::format("show.loupe: there is no room for it in {}x{}; make the frame larger, or leave "
-                  "out diagrams, overlays or the loupe",
-                  view.width_px, view.height_px));
+  throw UsageError("show.loupe",
+                   fmt::format("there is no room for it in {}x{}; make the frame larger, or leave "
+                               "out diagrams, overlays or the loupe",
+                               view.width_px, view.height_px));
 }
 
 LoupeInset::LoupeInset(const DrawingContext& context, const LoupeGap& gap)

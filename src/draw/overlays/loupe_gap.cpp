@@ -69,8 +69,8 @@ std::optional<Span> span_of_window(const Loupe& loupe, const Log& log) {
   const Span span{time_of(loupe.window->from, kLoupeKey, log),
                   time_of(loupe.window->to, kLoupeKey, log)};
   if (span.from < span.to) return span;
-  throw UsageError(fmt::format("{}: its window from {} to {} must end after it begins", kLoupeKey,
-                               to_text(span.from), to_text(span.to)));
+  throw UsageError(kLoupeKey, fmt::format("its window from {} to {} must end after it begins",
+                                          to_text(span.from), to_text(span.to)));
 }
 
 /// The part of the window that the scene shows. @throws UsageError if there is none.
@@ -79,10 +79,11 @@ Span shown_part(const LayoutContext& context, const Span& window) {
   const Span span = span_of(context.scene, context.log);
   Span shown{std::max(window.from, span.from), std::min(window.to, span.to)};
   if (shown.from < shown.to) return shown;
-  throw UsageError(fmt::format(
-      "{}: its window from {} to {} is outside of what is shown, {} to {}; move it "
-      "there, or leave the loupe out",
-      kLoupeKey, to_text(window.from), to_text(window.to), to_text(span.from), to_text(span.to)));
+  throw UsageError(
+      kLoupeKey,
+      fmt::format("its window from {} to {} is outside of what is shown, {} to {}; move it "
+                  "there, or leave the loupe out",
+                  to_text(window.from), to_text(window.to), to_text(span.from), to_text(span.to)));
 }
 
 std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& loupe) {
@@ -91,10 +92,11 @@ std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& 
   if (!shows_face(context)) {
     if (!loupe.window) return std::nullopt;
     throw UsageError(
-        fmt::format("{}: the loupe enlarges the gap beside what is immovable, and the view does "
+        kLoupeKey,
+        fmt::format("the loupe enlarges the gap beside what is immovable, and the view does "
                     "not show its face; let view.x contain position {} and what is beside it, or "
                     "leave the loupe out",
-                    kLoupeKey, to_text(blocks.side * blocks.wall_face)));
+                    to_text(blocks.side * blocks.wall_face)));
   }
   const double most_px = most_gap_px(context);
   LoupeGap gap{.anchor = blocks.wall_id,
@@ -107,19 +109,22 @@ std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& 
   if (!gap.window && gap.least_px < most_px) return gap;
   if (!gap.window && !gap.is_stage) return std::nullopt;
   if (!gap.window) {
-    throw UsageError(fmt::format(
-        "{}: the gap is never below {:.4g} pixels, and the loupe is seen below {:.4g}; use more "
-        "digits, or leave the loupe out",
-        kLoupeKey, gap.least_px, most_px));
+    throw UsageError(
+        kLoupeKey,
+        fmt::format(
+            "the gap is never below {:.4g} pixels, and the loupe is seen below {:.4g}; use more "
+            "digits, or leave the loupe out",
+            gap.least_px, most_px));
   }
   const Span shown = shown_part(context, *gap.window);
   const double shown_px = least_gap(log, shown) * context.layout.scale;
   if (shown_px < most_px) return gap;
-  throw UsageError(fmt::format(
-      "{}: in its window from {} to {} the gap is never below "
-      "{:.4g} pixels, and the loupe is seen below {:.4g}; move the window to the turn, "
-      "use more digits, or leave the loupe out",
-      kLoupeKey, to_text(gap.window->from), to_text(gap.window->to), shown_px, most_px));
+  throw UsageError(
+      kLoupeKey,
+      fmt::format("in its window from {} to {} the gap is never below "
+                  "{:.4g} pixels, and the loupe is seen below {:.4g}; move the window to the turn, "
+                  "use more digits, or leave the loupe out",
+                  to_text(gap.window->from), to_text(gap.window->to), shown_px, most_px));
 }
 
 /// A wall keeps its place in the picture, else what is immovable, else the body on the left.
@@ -147,16 +152,16 @@ LoupeGap gap_of_bodies(const DrawingContext& context, const Loupe& loupe) {
   const Log& log = context.log;
   const Span window = span_of_window(loupe, log).value();
   if (loupe.window->zoom > kMaxZoomOfPositions) {
-    throw UsageError(fmt::format(
-        "{}: enlarges these bodies at most 1e9 times; choose a smaller factor", kLoupeKey));
+    throw UsageError(kLoupeKey, "enlarges these bodies at most 1e9 times; choose a smaller factor");
   }
   const Span shown = shown_part(context, window);
   const Integer first = log.first_since(shown.from);
   if (!log.has(first) || to_rational(log.collision_time(first)) > shown.to) {
     throw UsageError(
-        fmt::format("{}: no bodies meet in its window from {} to {}; move it to a collision, or "
+        kLoupeKey,
+        fmt::format("no bodies meet in its window from {} to {}; move it to a collision, or "
                     "leave the loupe out",
-                    kLoupeKey, to_text(shown.from), to_text(shown.to)));
+                    to_text(shown.from), to_text(shown.to)));
   }
   const Collision met = log.collision(first);
   LoupeGap gap = gap_between(met, context.scene.system);
@@ -164,9 +169,10 @@ LoupeGap gap_of_bodies(const DrawingContext& context, const Loupe& loupe) {
   gap.least_px = most_gap_px(context);  // the gap closes; the window limits the zoom
   if (is_in_view(gap.meeting, context.scene.view)) return gap;
   throw UsageError(
-      fmt::format("{}: the first bodies that meet in its window from {} to {} do so at position "
+      kLoupeKey,
+      fmt::format("the first bodies that meet in its window from {} to {} do so at position "
                   "{:.4g}, which the view does not show; change view.x, or move the window",
-                  kLoupeKey, to_text(shown.from), to_text(shown.to), gap.meeting));
+                  to_text(shown.from), to_text(shown.to), gap.meeting));
 }
 
 std::optional<Loupe> loupe_of(const LayoutContext& context) {

@@ -340,10 +340,12 @@ ReadOutRows::ReadOutRows(const LayoutContext& context)
   }
   const auto widest = std::ranges::max_element(widths);
   if (*widest > room_px) {
-    throw UsageError(
-        fmt::format("show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make "
-                    "the frame wider",
-                    read_outs[std::size_t(widest - widths.begin())].name, room_px));
+    const std::string name = read_outs[std::size_t(widest - widths.begin())].name;
+    throw UsageError("show.overlays",
+                     fmt::format("'{}' cannot be read in {:.0f} pixels; leave it out, or make "
+                                 "the frame wider",
+                                 name, room_px),
+                     name);
   }
   const double gap = kBetweenReadOuts * text_px_;
   std::size_t first = 0;

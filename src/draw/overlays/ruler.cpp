@@ -43,10 +43,11 @@ Drawable ruler(const DrawingContext& context) {
   const double baseline = tick_end + kBelowTick * sizes.short_side + 2 * kHalfFigure_em * size_px;
   const double below_px = baseline - layout.floor_px;
   if (below_px > layout.below_px) {
-    throw UsageError(
-        fmt::format("show.overlays: the ruler needs {:.0f} pixels below the blocks, and there are "
-                    "{:.0f}; leave out 'ruler', or make the frame higher",
-                    below_px, std::max(0.0, layout.below_px)));
+    throw UsageError("show.overlays",
+                     fmt::format("the ruler needs {:.0f} pixels below the blocks, and there are "
+                                 "{:.0f}; leave out 'ruler', or make the frame higher",
+                                 below_px, std::max(0.0, layout.below_px)),
+                     exact_text(Overlay::ruler));
   }
   // Figures beside the foot of the wall are not below it.
   const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.wall_bottom_px;
@@ -78,9 +79,10 @@ Drawable ruler(const DrawingContext& context) {
         {}, {x - half_px, baseline}, text, size_px, context.palette.muted, context.font.face()});
   }
   if (figures < kLeastFigures) {
-    throw UsageError(
-        "show.overlays: the ruler has no room for two of its figures; leave out 'ruler', make the "
-        "frame wider, or show another part of the x axis");
+    throw UsageError("show.overlays",
+                     "the ruler has no room for two of its figures; leave out 'ruler', make the "
+                     "frame wider, or show another part of the x axis",
+                     exact_text(Overlay::ruler));
   }
   for (std::size_t n = 0; n < items.size(); ++n) {
     std::visit([n](auto& item) { item.id = nth(ItemId::ruler, n); }, items[n]);

@@ -180,10 +180,11 @@ class ConservationPanel {
     if (height_px() > inside().height) has_heading_ = false;
     if (height_px() > inside().height) has_sum_ = false;
     if (height_px() > inside().height) {
-      throw UsageError(fmt::format(
-          "show.panels: the bars of the diagram 'conservation' need {:.0f} pixels, and there are "
-          "{:.0f}; leave something out, or make the frame higher",
-          height_px(), inside().height));
+      throw UsageError(
+          "show.panels",
+          fmt::format("the bars of the diagram 'conservation' need {:.0f} pixels, and there are "
+                      "{:.0f}; leave something out, or make the frame higher",
+                      height_px(), inside().height));
     }
     const double stretch = std::clamp(inside().height / height_px(), 1.0, kMostStretch);
     row_px_ = stretch * kMomentumRow_em * em;
@@ -204,9 +205,9 @@ class ConservationPanel {
     has_figures_ = right_ - left_ >= kLeastBars_em * em;
     if (!has_figures_) right_ = std::round(inside().right());
     if (right_ - left_ < em) {
-      throw UsageError(
-          "show.panels: the diagram 'conservation' has no room for bars beside the bodies' names; "
-          "use shorter labels, or make the frame wider");
+      throw UsageError("show.panels",
+                       "the diagram 'conservation' has no room for bars beside the bodies' names; "
+                       "use shorter labels, or make the frame wider");
     }
     // The bar of energy ends where the figures do.
     energy_right_ = std::round(inside().right());

@@ -274,19 +274,22 @@ Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place)
   const int base = context.scene.show.base;
   const std::optional<unsigned long> places = places_of_pi(context.two_blocks().blocks(), base);
   if (!places) {
-    throw UsageError(fmt::format(
-        "show.panels: the diagram 'certainty' is about the digits of pi, which this scene does "
-        "not count; leave it out, or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
-        base * base));
+    throw UsageError(
+        "show.panels",
+        fmt::format(
+            "the diagram 'certainty' is about the digits of pi, which this scene does "
+            "not count; leave it out, or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
+            base * base));
   }
   const DigitMargin numbers(base, *places);
   const MarginWords words(context.setter(), numbers);
   Diagram diagram(context, place, words.titles());
   if (!MarginFigure(diagram, numbers, words).add()) {
-    throw UsageError(fmt::format(
-        "show.panels: the diagram 'certainty' has too little room in {:.0f}x{:.0f} pixels; leave "
-        "something out, or make the frame larger",
-        place.area.width, place.area.height));
+    throw UsageError(
+        "show.panels",
+        fmt::format("the diagram 'certainty' has too little room in {:.0f}x{:.0f} pixels; leave "
+                    "something out, or make the frame larger",
+                    place.area.width, place.area.height));
   }
   diagram.finish();
   return unchanging({diagram.item()});

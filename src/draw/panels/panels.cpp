@@ -75,10 +75,11 @@ const Formula& Diagram::fitting(const std::vector<Formula>& titles) const {
   const auto title = std::ranges::find_if(
       titles, [&](const Formula& wording) { return width_px(wording) <= title_room_px_; });
   if (title != titles.end()) return *title;
-  throw UsageError(fmt::format(
-      "show.panels: the title of the diagram '{}' needs {:.0f} pixels, and there are {:.0f}; "
-      "leave out a diagram, or make the frame larger",
-      exact_text(panel_), width_px(titles.back()), title_room_px_));
+  throw UsageError(
+      "show.panels",
+      fmt::format("the title of the diagram '{}' needs {:.0f} pixels, and there are {:.0f}; "
+                  "leave out a diagram, or make the frame larger",
+                  exact_text(panel_), width_px(titles.back()), title_room_px_));
 }
 
 std::vector<DrawItem> Diagram::title(std::size_t n, const std::vector<Formula>& titles,
@@ -110,10 +111,11 @@ void PhasedTitle::add(const Integer& count, std::vector<DrawItem>& items) const 
 
 void Diagram::check_range(const std::vector<DrawItem>& items) const {
   if (are_finite(items)) return;
-  throw UsageError(fmt::format(
-      "show.panels: the diagram '{}' needs numbers beyond the range of a double (about 1.8e308); "
-      "leave it out, or use less extreme positions, velocities and times",
-      exact_text(panel_)));
+  throw UsageError(
+      "show.panels",
+      fmt::format("the diagram '{}' needs numbers beyond the range of a double (about 1.8e308); "
+                  "leave it out, or use less extreme positions, velocities and times",
+                  exact_text(panel_)));
 }
 
 void Diagram::finish() {
@@ -164,15 +166,16 @@ TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double
       plot_(diagram.inside()) {
   if (span_.to <= span_.from) {
     throw UsageError(
-        fmt::format("show.panels: a diagram over time needs an end after the beginning, and the "
+        "show.panels",
+        fmt::format("a diagram over time needs an end after the beginning, and the "
                     "scene goes from {} to {}; change time.from or time.to, or leave the diagram "
                     "out",
                     to_text(span_.from), to_text(span_.to)));
   }
   if (!(length_ > 0) || !std::isfinite(length_)) {
-    throw UsageError(
-        "show.panels: the time that the scene shows is beyond the range of a double; leave out "
-        "diagrams over time, or change time.from and time.to");
+    throw UsageError("show.panels",
+                     "the time that the scene shows is beyond the range of a double; leave out "
+                     "diagrams over time, or change time.from and time.to");
   }
   const double em = diagram.text_px();
   const double inside_left = plot_.x;

@@ -51,8 +51,8 @@ Meeting first_meeting(const Log& log, const Span& span) {
     speed = speed - 2 * dot(speed, apart) / dot(apart, apart) * apart;
     return meeting;
   }
-  throw UsageError(
-      "show.panels: 'separation' shows how two discs meet, and no two meet in this scene");
+  throw UsageError("show.panels",
+                   "'separation' shows how two discs meet, and no two meet in this scene");
 }
 
 class SeparationPanel {

@@ -115,15 +115,15 @@ class SpeedsPanel {
     const System& system = context.scene.system;
     const double energy = energy_of(system);
     if (masses_of(system).size() < kLeastBodies || energy <= 0) {
-      throw UsageError(
-          fmt::format("show.panels: 'speeds' needs at least {} bodies of finite mass, and one that "
-                      "moves; leave the diagram out",
-                      kLeastBodies));
+      throw UsageError("show.panels",
+                       fmt::format("'speeds' needs at least {} bodies of finite mass, and one that "
+                                   "moves; leave the diagram out",
+                                   kLeastBodies));
     }
     if (!std::isfinite(energy)) {
-      throw UsageError(
-          "show.panels: 'speeds' needs an energy within the range of a double (about 1.8e308); "
-          "leave the diagram out, or use less extreme velocities");
+      throw UsageError("show.panels",
+                       "'speeds' needs an energy within the range of a double (about 1.8e308); "
+                       "leave the diagram out, or use less extreme velocities");
     }
     const FormulaSetter set = context.setter();
     return {set.text("The speeds approach Maxwell's curve"), set.text("Speeds and Maxwell's curve"),

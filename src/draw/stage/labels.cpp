@@ -215,15 +215,18 @@ std::vector<std::size_t> labelled_beside(const LayoutContext& context, const Lay
   const std::string place = fmt::format("its block of {:.0f}x{:.0f} pixels", layout.width_px(body),
                                         layout.height_px(body));
   if (texts.is_mass(body)) {
-    throw UsageError(fmt::format(
-        "show.overlays: the mass '{}' does not fit on {}; leave out 'masses', make the block or "
-        "the frame larger, or show less of the x axis",
-        text, place));
+    throw UsageError(
+        "show.overlays",
+        fmt::format("the mass '{}' does not fit on {}; leave out 'masses', make the block or "
+                    "the frame larger, or show less of the x axis",
+                    text, place),
+        exact_text(Overlay::masses));
   }
   throw UsageError(
-      fmt::format("body {}.label: '{}' does not fit on {}; use a shorter one, make the block or "
-                  "the frame larger, or show less of the x axis",
-                  body + 1, text, place));
+      fmt::format("body {}.label", body + 1),
+      fmt::format("'{}' does not fit on {}; use a shorter one, make the block or the frame larger, "
+                  "or show less of the x axis",
+                  text, place));
 }
 
 void check_room(const DrawingContext& context, const BlockTexts& texts, std::size_t body) {
@@ -240,11 +243,14 @@ void check_room(const DrawingContext& context, const BlockTexts& texts, std::siz
   }
   const double needed = label_room_px(context.sizes);
   if (context.layout.above_px + kRounded_px >= needed) return;
-  throw UsageError(fmt::format(
-      "show.overlays: the {} '{}' needs {:.0f} pixels above its block, and there are {:.0f}; leave "
-      "out {}, or make the block wider or the frame higher",
-      texts.is_mass(body) ? "mass" : "label", texts.text(body), needed,
-      std::max(0.0, context.layout.above_px), texts.is_mass(body) ? "'masses'" : "the label"));
+  throw UsageError(
+      "show.overlays",
+      fmt::format("the {} '{}' needs {:.0f} pixels above its block, and there are {:.0f}; leave "
+                  "out {}, or make the block wider or the frame higher",
+                  texts.is_mass(body) ? "mass" : "label", texts.text(body), needed,
+                  std::max(0.0, context.layout.above_px),
+                  texts.is_mass(body) ? "'masses'" : "the label"),
+      texts.is_mass(body) ? exact_text(Overlay::masses) : "");
 }
 
 /// @param baseline  from where the body's place is measured: the frame's top, or a disc's centre

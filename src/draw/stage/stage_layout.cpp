@@ -28,13 +28,17 @@ constexpr std::size_t kMostDrawn = 50'000;
 void check_is_between(const LineWalls& walls, const Range& seen, const View& view) {
   if (seen.high > seen.low) return;
   if (walls.left && view.x.high <= *walls.left) {
-    throw UsageError(fmt::format(
-        "view.x: ends at {}, and the wall's face is at {}; raise its upper end, or move the wall",
-        to_text(seen.high), to_text(*walls.left)));
+    throw UsageError(
+        "view.x",
+        fmt::format(
+            "ends at {}, and the wall's face is at {}; raise its upper end, or move the wall",
+            to_text(seen.high), to_text(*walls.left)));
   }
-  throw UsageError(fmt::format(
-      "view.x: begins at {}, and the wall's face is at {}; lower its lower end, or move the wall",
-      to_text(seen.low), to_text(seen.high)));
+  throw UsageError(
+      "view.x",
+      fmt::format(
+          "begins at {}, and the wall's face is at {}; lower its lower end, or move the wall",
+          to_text(seen.low), to_text(seen.high)));
 }
 
 /// The heights of blocks, in those of the lightest one.
@@ -68,10 +72,12 @@ void set_blocks(const System& system, Layout& layout) {
 /// Makes all blocks lower until the tallest one has room. @throws UsageError if there is too little
 void fit_heights(double room_px, const View& view, Layout& layout) {
   if (room_px < kLeastHeight * Sizes(view).short_side) {
-    throw UsageError(fmt::format(
-        "show: the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
-        "frame larger",
-        std::max(0.0, room_px), view.width_px, view.height_px));
+    throw UsageError(
+        "show",
+        fmt::format(
+            "the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
+            "frame larger",
+            std::max(0.0, room_px), view.width_px, view.height_px));
   }
   const double shrink = std::min(1.0, room_px / (layout.floor_px - layout.top_px()));
   for (BlockShape& block : layout.shapes) {
@@ -120,9 +126,10 @@ void check_radius(double radius_px, std::size_t number) {
   constexpr double kMost_px = 0.9 * kFar_px;  // with its line, and far from the picture
   if (radius_px <= kMost_px) return;
   throw UsageError(
-      fmt::format("body {}.radius: is {:.4g} pixels, and at most {:.2g} can be painted; make it "
-                  "smaller, show more of the plane, or use a wall",
-                  number, radius_px, kMost_px));
+      fmt::format("body {}.radius", number),
+      fmt::format("is {:.4g} pixels, and at most {:.2g} can be painted; make it smaller, show more "
+                  "of the plane, or use a wall",
+                  radius_px, kMost_px));
 }
 
 Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
@@ -139,10 +146,12 @@ Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
   const double width = layout.window.width - 2 * margin;
   const double height = layout.window.height - 2 * margin;
   if (std::min(width, height) < kLeastHeight * sizes.short_side) {
-    throw UsageError(fmt::format(
-        "show: there is too little room for the bodies in {}x{}; leave something out, or make the "
-        "frame larger",
-        view.width_px, view.height_px));
+    throw UsageError(
+        "show",
+        fmt::format(
+            "there is too little room for the bodies in {}x{}; leave something out, or make the "
+            "frame larger",
+            view.width_px, view.height_px));
   }
   layout.scale = std::min(width / to_double(view.x.high - view.x.low),
                           height / to_double(view.y.high - view.y.low));
@@ -168,7 +177,8 @@ void check_number(const LayoutContext& context) {
   const bool is_marked = context.scene.show.has(Overlay::velocities) || has_labels(context);
   const std::size_t most = is_marked ? kMostMarked : kMostDrawn;
   if (count <= most) return;
-  throw UsageError(fmt::format("body: {} of them cannot be drawn{}; use at most {}", count,
+  throw UsageError("body",
+                   fmt::format("{} of them cannot be drawn{}; use at most {}", count,
                                is_marked ? " with labels, masses or velocities" : "", most));
 }
 
@@ -193,10 +203,11 @@ void check_resolution(const Range& range, const char* key, double scale) {
   const double farthest = std::max(std::abs(to_double(range.low)), std::abs(to_double(range.high)));
   const double step_px = farthest * std::numeric_limits<double>::epsilon() * scale;
   if (step_px <= kMostStep_px) return;
-  throw UsageError(fmt::format(
-      "{}: so far from 0 positions are {:.1e} apart, which would be {:.1f} pixels; show "
-      "more of the axis, or move walls, bodies and view towards 0",
-      key, step_px / scale, step_px));
+  throw UsageError(
+      key,
+      fmt::format("so far from 0 positions are {:.1e} apart, which would be {:.1f} pixels; show "
+                  "more of the axis, or move walls, bodies and view towards 0",
+                  step_px / scale, step_px));
 }
 
 AxisPlace place_axis(const LayoutContext& context, double stage_width_px) {

@@ -19,7 +19,7 @@ py::str text_of(const std::exception& error) { return text_of(std::string(error.
 
 py::tuple texts_of(const UsageError& error) {
   py::list problems;
-  for (const std::string& problem : error.problems()) problems.append(text_of(problem));
+  for (const std::string& problem : error.lines()) problems.append(text_of(problem));
   return py::tuple(problems);
 }
 
