@@ -76,6 +76,10 @@ class Composer {
         context_{looks_, layout_},
         loupe_(LoupeInset::make(context_, plan_)) {}
 
+  std::optional<LineMap> line() const {
+    return context_.is_plane() ? std::nullopt : std::optional(line_map(context_));
+  }
+
   std::vector<Drawable> run(std::shared_ptr<const Image> logo) {
     add_stage();
     add_read_outs();
@@ -174,8 +178,21 @@ class Composer {
       const auto make_panel = kPanels.at(static_cast<std::size_t>(panels[i]));
       const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                    ids_from(static_cast<std::uint32_t>(i))};
-      add(make_panel(context_, {plan_.panels[i], first_id, panels[i]}));
+      try {
+        add(make_panel(context_, {plan_.panels[i], first_id, panels[i]}));
+      } catch (const UsageError& error) {
+        throw of_panel(error, panels[i]);
+      }
     }
+  }
+
+  /// An error that also names the diagram which it is about.
+  static UsageError of_panel(const UsageError& error, Panel panel) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (problem.key == "show.panels") problem.item = exact_text(panel);
+    }
+    return UsageError(std::move(problems));
   }
 
   void add(Drawable drawable) { drawables_.push_back(std::move(drawable)); }
@@ -199,9 +216,12 @@ class Composer {
 }  // namespace
 
 Composition::Composition(const Scene& scene, const Log& log, std::shared_ptr<const Image> logo)
-    : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}},
-      drawables_(Composer(scene, log).run(std::move(logo))),
-      needs_(needs_of(drawables_)) {}
+    : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
+  Composer composer(scene, log);
+  line_ = composer.line();
+  drawables_ = composer.run(std::move(logo));
+  needs_ = needs_of(drawables_);
+}
 
 DrawList Composition::frame(const FrameState& shown) const {
   for (const Motion& body : shown.state.bodies) check(is_finite(body), shown.time);

@@ -10,10 +10,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "draw/stage/line_map.hpp"
 #include "physics/exposure.hpp"
 
 namespace piblocks {
@@ -107,9 +109,12 @@ class Composition {
   DrawList frame(const FrameState& shown) const;
   /// What frame() reads of a FrameState beside what is always there.
   const FrameNeeds& needs() const noexcept { return needs_; }
+  /// Of blocks on a line; nothing of discs.
+  const std::optional<LineMap>& line() const noexcept { return line_; }
 
  private:
   DrawList empty_;
+  std::optional<LineMap> line_;
   std::vector<Drawable> drawables_;  ///< in the order of their ids
   FrameNeeds needs_;                 ///< of all of them
 };

@@ -37,6 +37,11 @@ double arrow_room_px(const Sizes& sizes) {
       (kVelocityBaseline + kAboveFigures) * sizes.short_side + Font::kCapHeight_em * sizes.text);
 }
 
+/// Of the arrow above a block: the first of its shaft, its head and its figure.
+ItemId id_of(std::size_t body, std::size_t count) {
+  return nth(ItemId::velocities, kIds * (count - 1 - body));
+}
+
 /// A shaft and a head, of different lines where there are blocks and where there are discs.
 struct Arrow {
   ItemId id = ItemId::velocities;
@@ -112,6 +117,7 @@ class BlockArrows {
         text_color_(context.palette.text),
         font_face_(context.font.face()),
         widths_(context.font, kNumberCharacters),
+        lengths_(context.scene.system, context.layout),
         line_px_(context.sizes.data_line),
         short_side_(context.sizes.short_side),
         text_px_(context.sizes.text) {
@@ -119,25 +125,22 @@ class BlockArrows {
     for (std::size_t i = system.bodies.size(); i-- > 0;) {
       if (system.bodies[i].mass) moving_.push_back(i);
     }
-    // The heaviest block's speed when it has all the energy. It may be below the range of a double.
-    const Rational most = heaviest_mass(system);
-    if (most > 0) usual_speed_ = root_of(twice_energy(system) / most);
     place_foot(context);
     place_figures(context);
-    find_longest(context);
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     std::vector<Figure> figures;
     if (has_figures_) figures = figures_of(shown);
+    const std::size_t count = layout_.shapes.size();
     for (const std::size_t body : moving_) {
       const auto figure = std::ranges::find(figures, body, &Figure::body);
       if (has_figures_ && figure == figures.end()) continue;
       const double middle = layout_.at(shown.state.bodies[body].position[0], 0).x;
-      const double half = length_px(shown.state.bodies[body].velocity[0]) / 2;
+      const double half = lengths_.length_px(shown.state.bodies[body].velocity[0]) / 2;
       const double y = foot_px_ - kShaft * short_side_;
       const double head = kHead * short_side_;
-      add_arrow({id_of(body),
+      add_arrow({id_of(body, count),
                  {middle - half, y},
                  {middle + half, y},
                  colors_[body].line,
@@ -150,20 +153,17 @@ class BlockArrows {
   }
 
  private:
-  ItemId id_of(std::size_t body) const {
-    return nth(ItemId::velocities, kIds * (layout_.shapes.size() - 1 - body));
-  }
-
   void place_foot(const DrawingContext& context) {
     const bool is_over_label = !labelled_above(context, layout_).empty();
     const double labels = is_over_label ? label_room_px(context.sizes) : 0;
     foot_px_ = layout_.top_px() - labels;
     const double room = arrow_room_px(context.sizes);
     if (layout_.above_px + kRounded_px >= room + labels) return;
-    throw UsageError(
-        fmt::format("show.overlays: the velocities need {:.0f} pixels above the blocks, and there "
-                    "are {:.0f}; leave out 'velocities', or make the frame higher",
-                    room, std::max(0.0, layout_.above_px - labels)));
+    throw UsageError("show.overlays",
+                     fmt::format("the velocities need {:.0f} pixels above the blocks, and there "
+                                 "are {:.0f}; leave out 'velocities', or make the frame higher",
+                                 room, std::max(0.0, layout_.above_px - labels)),
+                     exact_text(Overlay::velocities));
   }
 
   void place_figures(const DrawingContext& context) {
@@ -175,20 +175,11 @@ class BlockArrows {
     };
     has_figures_ = !moving_.empty() && room_.width() >= width(moving_.size());
     if (has_figures_ || moving_.size() > kAlwaysFigures || moving_.empty()) return;
-    throw UsageError(
-        fmt::format("show.overlays: the velocities need {:.0f} pixels beside the wall, and there "
-                    "are {:.0f}; leave out 'velocities', or make the frame wider",
-                    width(moving_.size()), std::max(0.0, room_.width())));
-  }
-
-  void find_longest(const DrawingContext& context) {
-    const std::vector<std::size_t> order = from_left_to_right(context.scene.system);
-    double narrowest = layout_.shapes[order.front()].width * 2;
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      const double widths = layout_.shapes[order[i - 1]].width + layout_.shapes[order[i]].width;
-      narrowest = i == 1 ? widths : std::min(narrowest, widths);
-    }
-    longest_px_ = kLongest * narrowest / 2 * layout_.scale;
+    throw UsageError("show.overlays",
+                     fmt::format("the velocities need {:.0f} pixels beside the wall, and there "
+                                 "are {:.0f}; leave out 'velocities', or make the frame wider",
+                                 width(moving_.size()), std::max(0.0, room_.width())),
+                     exact_text(Overlay::velocities));
   }
 
   /// From left to right. A block that has left the frame has no figure: half a figure would be
@@ -203,10 +194,10 @@ class BlockArrows {
       const double width = widths_.width_em(text) * text_px_;
       const Point at{std::min(middle - width / 2, room_.right - width),
                      foot_px_ - kVelocityBaseline * short_side_};
-      figures.push_back(
-          {body,
-           {nth(id_of(body), 2), at, std::move(text), text_px_, text_color_, font_face_},
-           width});
+      figures.push_back({body,
+                         {nth(id_of(body, layout_.shapes.size()), 2), at, std::move(text), text_px_,
+                          text_color_, font_face_},
+                         width});
     }
     std::ranges::sort(figures, {}, [&](const Figure& figure) {
       return shown.state.bodies[figure.body].position[0];
@@ -215,19 +206,12 @@ class BlockArrows {
     return figures;
   }
 
-  double length_px(double velocity) const {
-    const double speed = std::abs(velocity);
-    if (!(usual_speed_ > 0) || !(speed > 0)) return 0;
-    const double share = 1 / (1 + kHalfLength * mpf_class(usual_speed_ / speed).get_d());
-    return std::copysign(share * longest_px_, velocity);
-  }
-
   Layout layout_;
   std::vector<BlockColors> colors_;
   Color text_color_;
   Face font_face_;
   TextWidths widths_;
-  mpf_class usual_speed_ = 0;
+  ArrowLengths lengths_;
   double line_px_;
   double short_side_;
   double text_px_;
@@ -235,7 +219,6 @@ class BlockArrows {
   bool has_figures_ = true;
   Columns room_;        ///< of figures
   double foot_px_ = 0;  ///< arrows and figures are above it
-  double longest_px_ = 0;
 };
 
 class DiscArrows {
@@ -279,6 +262,57 @@ class DiscArrows {
 };
 
 }  // namespace
+
+ArrowLengths::ArrowLengths(const System& system, const Layout& layout) {
+  // The heaviest block's speed when it has all the energy. It may be below the range of a double.
+  const Rational most = heaviest_mass(system);
+  if (most > 0) usual_speed_ = root_of(twice_energy(system) / most);
+  const std::vector<std::size_t> order = from_left_to_right(system);
+  double narrowest = layout.shapes[order.front()].width * 2;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const double widths = layout.shapes[order[i - 1]].width + layout.shapes[order[i]].width;
+    narrowest = i == 1 ? widths : std::min(narrowest, widths);
+  }
+  longest_px_ = kLongest * narrowest / 2 * layout.scale;
+}
+
+double ArrowLengths::length_px(double velocity) const {
+  const double speed = std::abs(velocity);
+  if (!(usual_speed_ > 0) || !(speed > 0)) return 0;
+  const double share = 1 / (1 + kHalfLength * mpf_class(usual_speed_ / speed).get_d());
+  return std::copysign(share * longest_px_, velocity);
+}
+
+double ArrowLengths::px_per_speed() const {
+  if (!(usual_speed_ > 0)) return 0;
+  const double scale = mpf_class(longest_px_ / (kHalfLength * usual_speed_)).get_d();
+  return std::isfinite(scale) ? scale : 0;
+}
+
+LineMap line_map(const DrawingContext& context) {
+  const Layout& layout = context.layout;
+  LineMap map{layout.scale, layout.origin.x, layout.floor_px};
+  for (const auto& [width, height_px] : layout.shapes) map.blocks.push_back({width, height_px});
+  if (!context.scene.show.has(Overlay::velocities)) return map;
+  const ArrowLengths lengths(context.scene.system, layout);
+  map.px_per_speed = lengths.px_per_speed();
+  map.longest_arrow_px = lengths.longest_px();
+  return map;
+}
+
+std::optional<std::array<Point, 2>> arrow_in(const DrawList& list, std::size_t block,
+                                             std::size_t count) {
+  const ItemId id = id_of(block, count);
+  std::array<Point, 2> ends;
+  std::size_t found = 0;
+  for (const DrawItem& item : list.items) {
+    const auto* const path = std::get_if<PathItem>(&item);
+    if (path == nullptr || (path->id != id && path->id != nth(id, 1))) continue;
+    ends.at(path->id == id ? 0 : 1) = path->points.view().front();
+    ++found;
+  }
+  return found == 2 ? std::optional(ends) : std::nullopt;
+}
 
 double room_above_px(const LayoutContext& context, const Layout& layout) {
   const bool has_label = !labelled_above(context, layout).empty();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "draw/layout.hpp"
+#include "draw/stage/line_map.hpp"
 
 namespace piblocks {
 
@@ -84,6 +85,25 @@ double label_room_below_px(const Sizes& sizes);
 /// to a longest one. Arrows of discs begin at their edge, and are as long as they are fast.
 /// @throws UsageError if the view has no room above the blocks.
 Drawable velocity_arrows(const DrawingContext& context);
+
+/// How long these arrows are.
+class ArrowLengths {
+ public:
+  ArrowLengths(const System& line, const Layout& layout);
+
+  /// Negative to the left.
+  double length_px(double velocity) const;
+  double longest_px() const noexcept { return longest_px_; }
+  /// The length at small velocities; 0 where nothing moves.
+  double px_per_speed() const;
+
+ private:
+  mpf_class usual_speed_ = 0;
+  double longest_px_ = 0;
+};
+
+/// The map of a line's layout.
+LineMap line_map(const DrawingContext& context);
 
 /// Room that the scene's overlays need above the tallest block, in pixels.
 double room_above_px(const LayoutContext& context, const Layout& layout);
