@@ -7,53 +7,23 @@
 #include <piblocks/render.hpp>
 #include <piblocks/script.hpp>
 
-#include <algorithm>
 #include <memory>
-#include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "render/renderings.hpp"
+#include "web/choices.hpp"
 #include "web/facts.hpp"
 #include "web/live.hpp"
+#include "web/opening.hpp"
 
 namespace piblocks::web {
 namespace {
-
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    parts.emplace_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
-/// Settings are lines KEY=TEXT, in which the texts of a list are separated by tabs. They win over
-/// the text of the scene file.
-Script read_script(std::string_view text, std::string_view settings) {
-  if (std::max(text.size(), settings.size()) > kMaxSceneFile_bytes) {
-    throw SceneError(fmt::format("scene: longer than {} bytes, the most that a scene file may have",
-                                 kMaxSceneFile_bytes));
-  }
-  ScriptBuilder builder;
-  builder.read_text("scene", text);
-  for (const std::string& line : split(settings, '\n')) {
-    if (line.empty()) continue;
-    const std::size_t equals = line.find('=');
-    if (equals == std::string::npos) {
-      throw UsageError(fmt::format("setting '{}': must be KEY=TEXT", line));
-    }
-    const std::string key = line.substr(0, equals);
-    builder.set(key, key, split(std::string_view(line).substr(equals + 1), '\t'));
-  }
-  return builder.build();
-}
 
 // One page has one film, one picture and one sound.
 Screen screen;
@@ -63,16 +33,14 @@ LiveScript::Place place;
 /// What the last call has to say; the page reads it before the next one.
 std::string answer;
 
-/// Stores what `work` returns in `answer`. If it throws, stores the message instead, a line for
-/// each problem. @returns whether it did not throw.
+/// Stores what `work` returns in `answer`; if it throws, problems_json() instead.
+/// @returns whether it did not throw.
 bool store_answer(const auto& work) {
   try {
     answer = work();
     return true;
-  } catch (const std::bad_alloc&) {
-    answer = "page: there is no memory left for this scene; make the picture smaller";
   } catch (const std::exception& error) {
-    answer = error.what();
+    answer = problems_json(error);
   }
   return false;
 }
@@ -82,47 +50,24 @@ const LiveScript& opened() {
   return *live;
 }
 
-/// "frame 12" is a frame of the film, counted from 0; "instant turn-0.3" is any instant.
-LiveScript::Place read_place(const LiveScript& from, std::string_view text) {
-  constexpr std::string_view kFrame = "frame ";
-  constexpr std::string_view kInstant = "instant ";
-  if (text.starts_with(kInstant)) {
-    return from.place_of(parse_instant(text.substr(kInstant.size())));
-  }
-  if (!text.starts_with(kFrame))
-    throw UsageError(fmt::format("page: '{}' is neither a frame nor an instant", text));
-  return from.place_of_frame(std::stoll(std::string(text.substr(kFrame.size()))));
-}
-
 /// Shows this place. If it cannot be shown, nothing has happened.
 /// @returns the answer of live_show().
-std::string show(const LiveScript& from, const LiveScript::Place& wanted) {
-  DrawList list = from.picture(wanted);
-  const std::string what = shown_json(from, wanted);
-  screen.update(std::move(list));
-  place = wanted;
+std::string show(const LiveScript& from, Picture picture) {
+  const std::string what = shown_json(from, picture.place, picture.list);
+  screen.update(std::move(picture.list));
+  place = picture.place;
   const PixelRect& rect = screen.patch().rect;
   return fmt::format(R"({{"shown":{},"rect":[{},{},{},{}]}})", what, rect.x_px, rect.y_px,
                      rect.width_px, rect.height_px);
 }
 
-/// Shows the first of these places that the scene has, otherwise the start.
-/// @param problem  is set to what is wrong with the first of them.
-std::string show_first(const LiveScript& from, const std::vector<std::string>& places,
-                       std::string& problem) {
-  for (const std::string& text : places) {
-    try {
-      return show(from, read_place(from, text));
-    } catch (const Error& error) {
-      if (problem.empty()) problem = error.what();
-    }
-  }
-  return show(from, from.place_of_frame(0));
+std::string show(const LiveScript& from, const LiveScript::Place& wanted) {
+  return show(from, Picture{wanted, from.picture(wanted)});
 }
 
 /// The picture that is shown, in the format that the file's extension names.
 std::vector<std::uint8_t> encoded(const std::string& name) {
-  const DrawList list = opened().picture(place);
+  const DrawList list = opened().full_picture(place);
   if (has_ending(name, ".svg")) return draw_svg(list);
   if (has_ending(name, ".pdf")) return draw_pdf(list);
   return draw_png(list, {});
@@ -150,22 +95,31 @@ EMSCRIPTEN_KEEPALIVE bool live_program() {
 }
 
 /// Opens a scene or storyboard and shows it; if something is wrong, the one before stays.
+/// @param settings  over the text: lines as of settings_of()
 /// @param places  lines as of live_show(): the first that the scene has is shown, otherwise its
 ///                start. Nothing is shown if this is empty.
-/// Answers with {"facts":facts_json(),"picture":as of live_show() or null,"placeProblem":…}.
-EMSCRIPTEN_KEEPALIVE bool live_open(const char* text, const char* settings, const char* places) {
+/// @param size  of the picture, as "1080x1920", if the scene fits into it; otherwise its own. Files
+///              are of its own size.
+/// Answers with {"facts":facts_json(),"picture":as of live_show() or null,"placeProblem":"…",
+/// "leftOut":[{"key":…,"item":…,"reason":…}]}.
+EMSCRIPTEN_KEEPALIVE bool live_open(const char* text, const char* settings, const char* places,
+                                    const char* size) {
   return store_answer([&] {
-    auto made = std::make_unique<LiveScript>(read_script(text, settings));
-    const std::string facts = facts_json(*made);
-    const bool is_shown = std::string_view(places) != "";
-    std::string problem;
-    const std::string picture = is_shown ? show_first(*made, split(places, '\n'), problem) : "null";
-    if (!is_shown) place = made->place_of_frame(0);
-    live = std::move(made);
+    OpenedScript opening = open_script({text, settings, places, size});
+    const std::string facts = facts_of(opening);
+    const bool is_shown = opening.picture.has_value();
+    const std::string picture =
+        is_shown ? show(*opening.live, *std::move(opening.picture)) : "null";
+    if (!is_shown) place = opening.live->place_of_frame(0);
+    live = std::move(opening.live);
     sound.reset();
-    return fmt::format(R"({{"facts":{},"picture":{},"placeProblem":{}}})", facts, picture,
-                       json_text(problem));
+    return opened_json(opening, facts, picture);
   });
+}
+
+/// Answers with choices_json() of what is open.
+EMSCRIPTEN_KEEPALIVE bool live_choices() {
+  return store_answer([] { return choices_json(opened()); });
 }
 
 /// Shows "frame 12" of the film, counted from 0, or "instant X", where X is as "3.5", "turn-0.3",

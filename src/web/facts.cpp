@@ -1,10 +1,11 @@
 #include "web/facts.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/text.hpp"
@@ -14,43 +15,25 @@
 #include "scene/scene_keys.hpp"
 #include "scene/scene_toml.hpp"
 #include "scene/shipped_scenes.hpp"
+#include "web/decimals.hpp"
+#include "web/json.hpp"
+#include "web/room.hpp"
 
 namespace piblocks::web {
 namespace {
 
-std::string json_array(const std::vector<std::string>& values) {
-  std::string text;
-  for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
-  return '[' + text + ']';
+Values decimals_of(Values texts) {
+  for (std::string& text : texts) text = with_decimals(text);
+  return texts;
 }
 
-std::string json_texts(const std::vector<std::string>& values) {
-  std::vector<std::string> quoted;
-  quoted.reserve(values.size());
-  for (const std::string& value : values) quoted.push_back(json_text(value));
-  return json_array(quoted);
-}
-
-/// The number of digits that this mass ratio counts; nothing if it is not an even power of the
-/// base.
-std::optional<int> digits_of(const Rational& ratio, int base) {
-  if (ratio.get_den() != 1 || ratio < 1) return std::nullopt;
-  Integer power = 1;
-  int digits = 1;
-  for (; power < ratio.get_num(); ++digits) power *= base * base;
-  return power == ratio.get_num() ? std::optional(digits) : std::nullopt;
-}
-
-std::string row_json(const Scene& scene, std::size_t i) {
-  const Body& body = scene.system.bodies[i];
-  const BodyStyle& style = scene.styles[i];
-  const int dimensions = scene.system.dimensions;
+std::string row_json(const Body& body, const BodyStyle& style, int dimensions) {
   return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{},)"
                      R"("path":{}}})",
-                     json_text(body.mass ? body.mass->get_str() : "inf"),
-                     json_texts(coordinates_of(body.position, dimensions)),
-                     json_texts(coordinates_of(body.velocity, dimensions)),
-                     json_text(body.size.get_str()), json_text(color_text(style)),
+                     json_text(body.mass ? decimal_text(*body.mass) : "inf"),
+                     json_texts(decimals_of(coordinates_of(body.position, dimensions))),
+                     json_texts(decimals_of(coordinates_of(body.velocity, dimensions))),
+                     json_text(decimal_text(body.size)), json_text(color_text(style)),
                      json_text(style.label), style.path);
 }
 
@@ -59,8 +42,8 @@ std::string box_json(const System& system, std::string_view low, std::string_vie
                      std::size_t axis) {
   std::vector<std::string> ends = {"-inf", "inf"};
   for (const Wall& wall : system.walls) {
-    if (wall.name == low) ends[0] = wall.point.at(axis).get_str();
-    if (wall.name == high) ends[1] = wall.point.at(axis).get_str();
+    if (wall.name == low) ends[0] = decimal_text(wall.point.at(axis));
+    if (wall.name == high) ends[1] = decimal_text(wall.point.at(axis));
   }
   return json_texts(ends);
 }
@@ -68,27 +51,63 @@ std::string box_json(const System& system, std::string_view low, std::string_vie
 std::string bodies_json(const Scene& scene) {
   const System& system = scene.system;
   std::vector<std::string> rows;
-  for (std::size_t i = 0; i < system.bodies.size() && system.bodies.size() <= kMaxBodyRows; ++i) {
-    rows.push_back(row_json(scene, i));
+  std::optional<Body> room;
+  if (system.bodies.size() <= kMaxBodyRows) {
+    for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+      rows.push_back(row_json(system.bodies[i], scene.styles[i], system.dimensions));
+    }
+    room = body_with_room(scene);
   }
-  return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{}}})",
+  return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{},"room":{}}})",
                      system.bodies.size(), system.dimensions, box_json(system, "left", "right", 0),
-                     box_json(system, "lower", "upper", 1), json_array(rows));
+                     box_json(system, "lower", "upper", 1), json_array(rows),
+                     room ? row_json(*room, {}, system.dimensions) : "null");
+}
+
+/// The texts of a key, its numbers as decimals if that means the same value.
+Values readable(const SceneKey& key, const Scene& scene) {
+  Values exact = key.get(scene);
+  Values decimal = decimals_of(exact);
+  if (decimal == exact) return exact;
+  try {
+    Scene trial;
+    key.set(trial, decimal);
+    if (key.get(trial) == exact) return decimal;
+  } catch (const UsageError&) {
+    // A name of a file, for one.
+  }
+  return exact;
+}
+
+bool is_words(std::string_view key) {
+  return key == "show.title" || key == "show.caption" || key == "show.logo";
+}
+
+/// What else sets the masses.
+void add_masses(const Scene& scene, std::vector<std::pair<std::string, std::string>>& keys) {
+  constexpr int kMostWritten = 4;
+  const Rational ratio = mass_ratio_of(scene);
+  const int base = scene.show.base;
+  const std::optional<int> digits = digits_of(ratio, base);
+  keys.emplace_back("digits", json_texts(digits ? Values{fmt::format("{}", *digits)} : Values()));
+  keys.emplace_back("mass-ratio", json_texts({digits.value_or(0) > kMostWritten
+                                                  ? fmt::format("{}^{}", base * base, *digits - 1)
+                                                  : decimal_text(ratio)}));
+  keys.emplace_back("wall.mass", json_texts({"inf"}));
 }
 
 /// What a scene's keys are, and the overlays that it shows.
 /// @param of_film  whether to leave out keys that are not for a whole film.
 std::string keys_json(Scene scene, bool of_film) {
   scene.show.overlays = overlays_of(scene);
-  std::vector<std::string> keys;
+  std::vector<std::pair<std::string, std::string>> keys;
   for (const SceneKey& key : scene_keys()) {
     if (of_film && !is_film_key(key.name)) continue;
-    keys.push_back(fmt::format("{}:{}", json_text(key.name), json_texts(key.get(scene))));
+    keys.emplace_back(key.name,
+                      json_texts(is_words(key.name) ? key.get(scene) : readable(key, scene)));
   }
-  std::string text = json_array(keys);
-  text.front() = '{';
-  text.back() = '}';
-  return text;
+  if (!of_film && has_short_names(scene.system)) add_masses(scene, keys);
+  return json_object(keys);
 }
 
 std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
@@ -101,43 +120,81 @@ std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
 }
 
 std::string scene_json(const Scene& scene, const FilmRun& run) {
-  const PairLog* const pair = run.log().pair();
-  const Rational ratio =
-      pair == nullptr ? Rational(1) : pair->blocks().red.mass / pair->blocks().blue.mass;
+  const Rational ratio = mass_ratio_of(scene);
   const std::optional<int> digits = digits_of(ratio, scene.show.base);
   return fmt::format(R"("hasTurn":{},"digits":{},"massRatio":{},"bodies":{},"notes":{})",
                      turn_of(run.log()).has_value(), digits ? fmt::format("{}", *digits) : "null",
-                     json_text(ratio.get_str()),
+                     json_text(decimal_text(ratio)),
                      has_short_names(scene.system) ? "null" : bodies_json(scene),
                      json_texts(notes_of(scene, run)));
 }
 
+std::string stage_json(const FilmRun& run, const LiveScript::Place& place,
+                       const DrawList& picture) {
+  const Scene& scene = run.scene();
+  if (!has_short_names(scene.system)) return "null";
+  const LineMap& line = run.line().value();
+  const Rational time = time_of(place.instant, run.log());
+  const State state = run.log().state_at(time);
+  std::vector<std::string> blocks;
+  for (const std::size_t body : {0U, 1U}) {
+    const Rect rect = line.at(body, state.bodies[body].position[0]);
+    const auto arrow = arrow_in(picture, body, 2);
+    blocks.push_back(fmt::format(R"({{"key":"{}","rect":[{},{},{},{}],"arrow":{}}})",
+                                 scene.system.bodies[body].name, rect.x, rect.y, rect.width,
+                                 rect.height,
+                                 arrow ? fmt::format("[{},{},{},{}]", (*arrow)[0].x, (*arrow)[0].y,
+                                                     (*arrow)[1].x, (*arrow)[1].y)
+                                       : "null"));
+  }
+  return fmt::format(R"({{"scale":{},"zero":{},"floor":{},"blocks":{},"arrowScale":{},)"
+                     R"("longestArrow":{}}})",
+                     line.scale, line.zero_px, line.floor_px, json_array(blocks), line.px_per_speed,
+                     line.longest_arrow_px);
+}
+
 }  // namespace
 
-std::string facts_json(const LiveScript& live) {
+Rational mass_ratio_of(const Scene& scene) {
+  const std::optional<TwoBlocks> blocks = two_blocks_of(scene.system);
+  return blocks ? Rational(blocks->red.mass / blocks->blue.mass) : Rational(1);
+}
+
+std::optional<int> digits_of(const Rational& ratio, int base) {
+  if (ratio.get_den() != 1 || ratio < 1) return std::nullopt;
+  Integer rest;
+  const Integer step = base * base;
+  const auto power = mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), step.get_mpz_t());
+  if (rest != 1) return std::nullopt;
+  return static_cast<int>(power) + 1;
+}
+
+std::string facts_json(const LiveScript& live, std::string_view ranges) {
   const auto* const scene = std::get_if<Scene>(&live.script());
   Scene film;
   film.view = view_of(live.script());
   film.sound = sound_of(live.script());
-  const View& view = view_of(live.script());
+  const View& view = live.view();
   const std::optional<std::int64_t> frames = live.frame_count();
   return fmt::format(
       R"({{"kind":"{}","width":{},"height":{},"rate":[{},{}],"frames":{},"filmProblem":{},)"
-      R"("keys":{},"toml":{}{}{}}})",
+      R"("keys":{},"toml":{},"ranges":{}{}{}}})",
       scene == nullptr ? "storyboard" : "scene", view.width_px, view.height_px,
       view.frame_rate.get_num().get_str(), view.frame_rate.get_den().get_str(),
       frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()),
       keys_json(scene ? *scene : film, scene == nullptr), json_text(scene_toml(live.script())),
-      scene ? "," : "", scene ? scene_json(*scene, *live.run()) : "");
+      ranges, scene ? "," : "", scene ? scene_json(*scene, *live.run()) : "");
 }
 
-std::string shown_json(const LiveScript& live, const LiveScript::Place& place) {
+std::string shown_json(const LiveScript& live, const LiveScript::Place& place,
+                       const DrawList& picture) {
   const auto text_of = [](const std::optional<std::int64_t>& number) {
     return number ? fmt::format("{}", *number) : std::string("null");
   };
   const std::optional<std::string> state = live.state(place);
-  return fmt::format(R"({{"frame":{},"nearFrame":{},"state":{}}})", text_of(place.frame),
-                     text_of(live.frame_near(place)), state ? json_text(*state) : "null");
+  return fmt::format(R"({{"frame":{},"nearFrame":{},"state":{},"stage":{}}})", text_of(place.frame),
+                     text_of(live.frame_near(place)), state ? json_text(*state) : "null",
+                     live.run() != nullptr ? stage_json(*live.run(), place, picture) : "null");
 }
 
 std::string program_json() {

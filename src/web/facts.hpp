@@ -2,20 +2,36 @@
 // In: a film; the scenes and names that the program has. Out: JSON.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "web/live.hpp"
 
 namespace piblocks::web {
 
 /// {"kind":"scene" or "storyboard","width":…,"height":…,"rate":[numerator,denominator],
-///  "frames":…,"filmProblem":"…","keys":{"…":["…"]},"toml":"…"}, and for a scene also "hasTurn",
-///  "digits" (null unless the mass ratio is that of some digits), "massRatio", "bodies" (null if
-///  there are two blocks and a wall), "notes". For a storyboard "keys" has those of the whole film.
-std::string facts_json(const LiveScript& live);
+///  "frames":…,"filmProblem":"…","keys":{"…":["…"]},"toml":"…","ranges":RANGES}, and for a scene
+///  also "hasTurn", "digits" (null unless the mass ratio is that of some digits), "massRatio",
+///  "bodies" (null if there are two blocks and a wall), "notes". Width and height are those of the
+///  picture. "keys" has numbers as decimals where they are decimals; those of two blocks and a wall
+///  also "digits", "mass-ratio" and "wall.mass", and those of a storyboard hold for the whole film.
+std::string facts_json(const LiveScript& live, std::string_view ranges = "{}");
 
-/// {"frame":…,"nearFrame":…,"state":"…"}: what the film shows at this place.
-std::string shown_json(const LiveScript& live, const LiveScript::Place& place);
+/// {"frame":…,"nearFrame":…,"state":"…","stage":…}: what the film shows at this place. For blue and
+/// red on a line "stage" is {"scale":…,"zero":…,"floor":…,"blocks":[{"key":"blue",
+/// "rect":[x,y,width,height],"arrow":[x,y,x,y] or null},{"key":"red",…}],"arrowScale":…,
+/// "longestArrow":…} in pixels, else null. An arrow of a small velocity is this times "arrowScale"
+/// long, and one of any length the velocity is length / (1 - length / longestArrow) / arrowScale;
+/// both are 0 without arrows.
+/// @param picture  of this place
+std::string shown_json(const LiveScript& live, const LiveScript::Place& place,
+                       const DrawList& picture);
+
+Rational mass_ratio_of(const Scene& scene);
+/// The number of digits that this mass ratio counts; nothing if it is not an even power of the
+/// base.
+std::optional<int> digits_of(const Rational& ratio, int base);
 
 /// {"scenes":[{"name":"…","summary":"…","text":"…"},…],"themes":[…],"overlays":[…],"panels":[…]}
 std::string program_json();

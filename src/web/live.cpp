@@ -14,7 +14,15 @@
 namespace piblocks::web {
 namespace {
 
-std::variant<FilmRun, Film> make_film(const Script& script) {
+View view_in(View view, const std::optional<FrameSize>& screen) {
+  if (!screen) return view;
+  view.width_px = screen->width_px;
+  view.height_px = screen->height_px;
+  return view;
+}
+
+std::variant<FilmRun, Film> make_film(Script script, const View& view) {
+  std::visit([&](auto& any) { any.view = view; }, script);
   if (const auto* const scene = std::get_if<Scene>(&script)) return run_of(*scene);
   return Film(script);
 }
@@ -68,7 +76,10 @@ void Screen::update(DrawList list) {
   }
 }
 
-LiveScript::LiveScript(Script script) : script_(std::move(script)), film_(make_film(script_)) {
+LiveScript::LiveScript(Script script, const std::optional<FrameSize>& screen)
+    : script_(std::move(script)),
+      view_(view_in(view_of(script_), screen)),
+      film_(make_film(script_, view_)) {
   if (const auto* const scene = std::get_if<Scene>(&script_)) plan_film(*scene);
 }
 
@@ -80,6 +91,7 @@ void LiveScript::plan_film(const Scene& scene) {
     schedule_ = std::move(schedule);
   } catch (const UsageError& error) {
     film_problem_ = error.what();
+    film_problems_ = error.problems();
   }
 }
 
@@ -141,6 +153,12 @@ DrawList LiveScript::picture(const Place& place) const {
   if (run() == nullptr) return std::get<Film>(film_).frame(*place.frame);
   if (place.frame) return run()->frame(*schedule_, *place.frame);
   return run()->still(place.instant);
+}
+
+DrawList LiveScript::full_picture(const Place& place) const {
+  const View& own = view_of(script_);
+  const bool is_full = own.width_px == view_.width_px && own.height_px == view_.height_px;
+  return is_full ? picture(place) : LiveScript(script_).picture(place);
 }
 
 std::optional<std::string> LiveScript::state(const Place& place) const {

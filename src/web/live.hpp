@@ -3,6 +3,7 @@
 // before, states, files.
 #pragma once
 
+#include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/script.hpp>
 
@@ -50,10 +51,14 @@ class LiveScript {
     Instant instant = {};  ///< of a storyboard a second of its video
   };
 
+  /// @param screen  size of the pictures, else the script's own
   /// @throws what commands throw; then nothing has happened.
-  explicit LiveScript(Script script);
+  explicit LiveScript(Script script, const std::optional<FrameSize>& screen = {});
 
+  /// With its own size.
   const Script& script() const noexcept { return script_; }
+  /// That of the pictures.
+  const View& view() const noexcept { return view_; }
   /// Nothing of a storyboard.
   const FilmRun* run() const noexcept { return std::get_if<FilmRun>(&film_); }
   /// Nothing if the scene has no film: see film_problem().
@@ -61,6 +66,8 @@ class LiveScript {
   /// Why the scene has stills alone, such as a span that ends before it begins; empty if it has a
   /// film.
   const std::string& film_problem() const noexcept { return film_problem_; }
+  /// The same in its parts.
+  const std::vector<Problem>& film_problems() const noexcept { return film_problems_; }
 
   /// @param number  what is outside of the film stands for its nearest end.
   Place place_of_frame(std::int64_t number) const;
@@ -73,6 +80,8 @@ class LiveScript {
   /// The frame that shows the instant first, or is nearest to it; nothing if there is no film.
   std::optional<std::int64_t> frame_near(const Place& place) const;
   DrawList picture(const Place& place) const;
+  /// The same in the script's own size.
+  DrawList full_picture(const Place& place) const;
   /// As `piblocks state` prints it; nothing of a storyboard. @throws SimulationError
   std::optional<std::string> state(const Place& place) const;
 
@@ -80,9 +89,11 @@ class LiveScript {
   void plan_film(const Scene& scene);
 
   Script script_;
+  View view_;
   std::variant<FilmRun, Film> film_;
   std::optional<Schedule> schedule_;  ///< of a scene
   std::string film_problem_;
+  std::vector<Problem> film_problems_;
 };
 
 /// The sound of a film, in any order. Going back begins anew.

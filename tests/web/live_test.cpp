@@ -232,6 +232,18 @@ TEST(LiveSound, IsTheSameInAnyOrder) {
   EXPECT_TRUE(parts.samples().empty());
 }
 
+/// The same for a canvas of another size.
+TEST(LiveScript, PicturesHaveTheSizeOfTheScreen) {
+  const LiveScript live(script_of(kDiagrams), FrameSize{270, 480});
+  EXPECT_EQ(view_of(live.script()).width_px, 320);
+  EXPECT_EQ(live.view().height_px, 480);
+  const LiveScript::Place place = live.place_of_frame(40);
+  const DrawList picture = live.picture(place);
+  EXPECT_EQ(picture.width_px, 270);
+  EXPECT_EQ(live.full_picture(place), LiveScript(script_of(kDiagrams)).picture(place));
+  EXPECT_EQ(LiveScript(script_of(kStory), FrameSize{270, 480}).picture({3, {}}).height_px, 480);
+}
+
 /// Whether the facts of this scene have this text.
 bool has(const std::string& text, const std::string& part) {
   return facts_json(LiveScript(script_of(text))).find(part) != std::string::npos;
@@ -251,7 +263,7 @@ TEST(Facts, TellKeysAndBodies) {
   EXPECT_TRUE(has(
       "box.x = [0, 9]\ntime.to = 3\n[[body]]\nposition = 2\nvelocity = \"1/3\"\n",
       R"("bodies":{"count":1,"dimensions":1,"x":["0","9"],"y":["-inf","inf"],"rows":[)"
-      R"({"mass":"1","position":["2"],"velocity":["1/3"],"size":"1","color":"","label":"","path":false}]})"));
+      R"({"mass":"1","position":["2"],"velocity":["1/3"],"size":"1","color":"","label":"","path":false}],"room":)"));
 }
 
 }  // namespace

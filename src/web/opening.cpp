@@ -1,0 +1,271 @@
+#include "web/opening.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <utility>
+
+#include "scene/body_keys.hpp"
+#include "scene/scene_keys.hpp"
+#include "web/facts.hpp"
+#include "web/json.hpp"
+#include "web/ranges.hpp"
+
+namespace piblocks::web {
+namespace {
+
+/// Names and keys that are left out of one scene at most.
+constexpr std::size_t kMostLeftOut = 60;
+
+/// When a scene ends that has no other end: nothing happens from time 0 on, or for ever.
+constexpr const char* kFixedEnd = "10";
+
+bool is_body_label(const std::string& key) {
+  return number_in(key, "body ") > 0 && key.ends_with(".label");
+}
+
+/// What there is to leave out where everything together has too little room, beginning with what is
+/// missed least.
+LeftOut least_needed(const Show& show) {
+  if (!show.panels.empty()) return {"show.panels"};
+  if (show.overlays && !show.overlays->empty()) return {"show.overlays"};
+  for (const auto& [key, text] :
+       {std::pair("show.caption", &show.caption), std::pair("show.title", &show.title),
+        std::pair("show.logo", &show.logo)}) {
+    if (!text->empty()) return {key};
+  }
+  return {"show.loupe"};
+}
+
+std::optional<FrameSize> size_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    Scene scene;
+    std::ranges::find(scene_keys(), std::string_view("view.size"), &SceneKey::name)
+        ->set(scene, {text});
+    return FrameSize{scene.view.width_px, scene.view.height_px};
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+class Opener {
+ public:
+  explicit Opener(const Request& request)
+      : request_(request),
+        settings_(settings_of(request.settings)),
+        changed_(settings_.empty() ? std::string() : settings_.back().key) {}
+
+  OpenedScript run() {
+    for (;;) {
+      try {
+        OpenedScript opening = attempt();
+        if (leave_out(opening.live->film_problems())) continue;
+        opening.left_out = left_out_;
+        return opening;
+      } catch (const UsageError& error) {
+        if (!leave_out(error.problems())) throw;
+      }
+    }
+  }
+
+ private:
+  OpenedScript attempt() {
+    show_ = {};
+    OpenedScript opening{.builder = builder_of(request_.text, settings_, left_out_)};
+    if (has_fixed_end_) {
+      opening.builder->set("time.from", "time.from", "0");
+      opening.builder->set("time.to", "time.to", kFixedEnd);
+    }
+    Script script = opening.builder->build();
+    if (const auto* const scene = std::get_if<Scene>(&script)) show_ = scene->show;
+    opening.live = live_of(std::move(script));
+    if (!request_.places.empty()) add_picture(opening);
+    return opening;
+  }
+
+  std::unique_ptr<LiveScript> live_of(Script script) const {
+    if (const std::optional<FrameSize> screen = size_of(request_.screen)) {
+      try {
+        return std::make_unique<LiveScript>(script, screen);
+      } catch (const UsageError&) {
+        // It does not fit, or is wrong at any size.
+      }
+    }
+    return std::make_unique<LiveScript>(std::move(script));
+  }
+
+  void add_picture(OpenedScript& opening) const {
+    const LiveScript& live = *opening.live;
+    const auto show = [&](const LiveScript::Place& place) {
+      opening.picture = Picture{place, live.picture(place)};
+    };
+    for (const std::string& text : split(request_.places, '\n')) {
+      try {
+        return show(read_place(live, text));
+      } catch (const UsageError& error) {
+        if (std::ranges::any_of(error.problems(), [&](const Problem& problem) {
+              return candidate_of(problem).has_value();
+            })) {
+          throw;
+        }
+        if (opening.place_problem.empty()) opening.place_problem = error.what();
+      } catch (const Error& error) {
+        if (opening.place_problem.empty()) opening.place_problem = error.what();
+      }
+    }
+    show(live.place_of_frame(0));
+  }
+
+  /// What to leave out because of this problem; nothing if that is of no use.
+  std::optional<LeftOut> candidate_of(const Problem& problem) const {
+    if (!can_be_left_out(problem)) return std::nullopt;
+    LeftOut out = problem.key == "show" ? least_needed(show_) : LeftOut{problem.key, problem.item};
+    if (out.item.empty()) out.item = last_of_list(out.key);
+    // Pictures name bodies by their numbers in the scene, messages about texts by those there.
+    if (problem.origin.empty()) out.key = key_in_text(out.key);
+    const bool is_of_all = problem.key == "show" && changed_.starts_with("show.");
+    if (is_of_all || are_alike(out.key, changed_) || is_among(hopeless_, out)) return std::nullopt;
+    out.reason = reason_alone(problem);
+    return out;
+  }
+
+  /// What to take from a list where it is not known which name is too much.
+  std::string last_of_list(const std::string& key) const {
+    if (key == "show.panels" && !show_.panels.empty()) return exact_text(show_.panels.back());
+    const bool has_overlays = show_.overlays && !show_.overlays->empty();
+    return key == "show.overlays" && has_overlays ? exact_text(show_.overlays->back()) : "";
+  }
+
+  /// The number that the body has in the text.
+  std::string key_in_text(const std::string& key) const {
+    const std::size_t number = number_in(key, "body ");
+    if (number == 0) return key;
+    std::size_t in_text = 0;
+    for (std::size_t left = number; left > 0;) {
+      ++in_text;
+      const std::string body = fmt::format("body {}", in_text);
+      const bool is_removed = std::ranges::any_of(
+          settings_, [&](const Setting& setting) { return !setting.texts && setting.key == body; });
+      if (!is_removed) --left;
+    }
+    return fmt::format("body {}{}", in_text, key.substr(key.find('.')));
+  }
+
+  static bool is_among(const std::vector<LeftOut>& list, const LeftOut& one) {
+    return std::ranges::any_of(
+        list, [&](const LeftOut& other) { return other.key == one.key && other.item == one.item; });
+  }
+
+  /// Leaves out what these problems are about. What was left out already, and did not help, is
+  /// there again. @returns whether another attempt is of use.
+  bool leave_out(const std::vector<Problem>& problems) {
+    bool has_changed = false;
+    const std::vector<LeftOut> before = left_out_;
+    for (const Problem& problem : problems) {
+      const std::optional<LeftOut> out = candidate_of(problem);
+      if (!out || left_out_.size() == kMostLeftOut) continue;
+      if (is_among(before, *out) && may_fix_end(*out)) {
+        has_fixed_end_ = true;
+        const LeftOut end{"time.to", {}, out->reason};
+        if (!is_among(left_out_, end)) left_out_.push_back(end);
+      } else if (is_among(before, *out)) {
+        hopeless_.push_back(*out);
+        std::erase_if(left_out_, [&](const LeftOut& one) { return is_among({*out}, one); });
+      } else if (!is_among(left_out_, *out)) {
+        left_out_.push_back(*out);
+      }
+      has_changed = true;
+    }
+    return has_changed;
+  }
+
+  /// Whether the scene may be shown up to a fixed time, since it has no other beginning or end.
+  bool may_fix_end(const LeftOut& out) const {
+    const bool is_of_span = out.key == "time.from" || out.key == "time.to";
+    return is_of_span && !has_fixed_end_ && changed_ != "time.from" && changed_ != "time.to";
+  }
+
+  const Request& request_;
+  std::vector<Setting> settings_;
+  std::string changed_;  ///< the key that has just been changed
+  std::vector<LeftOut> left_out_;
+  std::vector<LeftOut> hopeless_;
+  bool has_fixed_end_ = false;
+  Show show_;  ///< of the last attempt
+};
+
+std::string problem_json(const Problem& problem) {
+  const bool is_named = problem.reason.starts_with(": ");
+  return fmt::format(R"({{"origin":{},"key":{},"reason":{}}})", json_text(problem.origin),
+                     json_text(problem.key), json_text(problem.reason.substr(is_named ? 2 : 0)));
+}
+
+}  // namespace
+
+OpenedScript open_script(const Request& request) { return Opener(request).run(); }
+
+LiveScript::Place read_place(const LiveScript& live, std::string_view text) {
+  constexpr std::string_view kFrame = "frame ";
+  constexpr std::string_view kInstant = "instant ";
+  if (text.starts_with(kInstant)) {
+    return live.place_of(parse_instant(text.substr(kInstant.size())));
+  }
+  if (!text.starts_with(kFrame))
+    throw UsageError(fmt::format("page: '{}' is neither a frame nor an instant", text));
+  return live.place_of_frame(std::stoll(std::string(text.substr(kFrame.size()))));
+}
+
+bool can_be_left_out(const Problem& problem) {
+  constexpr std::array<std::string_view, 6> kOfTime = {
+      "time.from", "time.to", "time.slow-motion", "time.ease", "time.freeze", "time.duration"};
+  if (problem.is_unread) return false;
+  const std::string& key = problem.key;
+  return key == "show" || key.starts_with("show.") || key.starts_with("golden.") ||
+         std::ranges::count(kOfTime, key) > 0 || is_body_label(key);
+}
+
+std::string reason_alone(const Problem& problem) {
+  std::string_view reason = problem.reason;
+  const std::string beginnings[] = {": ", fmt::format("has '{}', which ", problem.item),
+                                    fmt::format("the diagram '{}' ", problem.item),
+                                    fmt::format("'{}' ", problem.item)};
+  for (const std::string& beginning : beginnings) {
+    if (reason.starts_with(beginning)) reason.remove_prefix(beginning.size());
+  }
+  // What would help is to leave it out, which has been done.
+  return std::string(reason.substr(0, reason.find("; ")));
+}
+
+std::string facts_of(const OpenedScript& opening) {
+  return facts_json(*opening.live, ranges_json(*opening.builder, *opening.live));
+}
+
+std::string opened_json(const OpenedScript& opening, std::string_view facts,
+                        std::string_view picture) {
+  std::vector<std::string> left_out;
+  for (const auto& [key, item, reason] : opening.left_out) {
+    left_out.push_back(fmt::format(R"({{"key":{},"item":{},"reason":{}}})", json_text(key),
+                                   json_text(item), json_text(reason)));
+  }
+  return fmt::format(R"({{"facts":{},"picture":{},"placeProblem":{},"leftOut":{}}})", facts,
+                     picture, json_text(opening.place_problem), json_array(left_out));
+}
+
+std::string problems_json(const std::exception& error) {
+  std::vector<std::string> problems;
+  if (const auto* const usage = dynamic_cast<const UsageError*>(&error)) {
+    for (const Problem& problem : usage->problems()) problems.push_back(problem_json(problem));
+  } else if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    problems.push_back(problem_json(
+        {.reason = "page: there is no memory left for this scene; make the picture smaller"}));
+  } else {
+    problems.push_back(problem_json({.reason = error.what()}));
+  }
+  return fmt::format(R"({{"problems":{}}})", json_array(problems));
+}
+
+}  // namespace piblocks::web

@@ -1,0 +1,115 @@
+#include "web/settings.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "scene/body_keys.hpp"
+#include "scene/scene_toml.hpp"
+
+namespace piblocks::web {
+namespace {
+
+/// Whether the key, or the body that it is a property of, has its default from this line on.
+bool resets(const Setting& setting, const std::string& key) {
+  if (setting.texts) return false;
+  return are_alike(setting.key, key) || key.starts_with(setting.key + '.');
+}
+
+bool is_left_out(const std::vector<LeftOut>& left_out, const std::string& key) {
+  return std::ranges::any_of(
+      left_out, [&](const LeftOut& out) { return out.item.empty() && out.key == key; });
+}
+
+std::unique_ptr<ScriptBuilder> read(std::string_view text, const std::vector<Setting>& settings,
+                                    const std::vector<LeftOut>& left_out) {
+  if (text.size() > kMaxSceneFile_bytes) {
+    throw SceneError(fmt::format("scene: longer than {} bytes, the most that a scene file may have",
+                                 kMaxSceneFile_bytes));
+  }
+  auto builder = std::make_unique<ScriptBuilder>();
+  for (const Setting& setting : settings) {
+    if (!setting.texts) builder->leave_out(setting.key);
+  }
+  for (const LeftOut& out : left_out) {
+    if (out.item.empty()) {
+      builder->leave_out(out.key);
+    } else {
+      builder->leave_out(out.key, out.item);
+    }
+  }
+  builder->read_text("scene", text);
+  for (auto setting = settings.begin(); setting != settings.end(); ++setting) {
+    const auto is_reset = [&](const Setting& later) { return resets(later, setting->key); };
+    if (!setting->texts || is_left_out(left_out, setting->key)) continue;
+    if (std::any_of(setting, settings.end(), is_reset)) continue;
+    builder->set(setting->key, setting->key, *setting->texts);
+  }
+  return builder;
+}
+
+/// The text of blue, red and a wall of finite mass as bodies; nothing if the scene is another one.
+std::optional<std::string> text_with_wall(std::string_view text,
+                                          const std::vector<Setting>& settings,
+                                          const std::vector<LeftOut>& left_out) {
+  try {
+    const Scene scene = read(text, settings, left_out)->build_scene();
+    const bool has_names = scene.system.bodies.front().name == "blue";
+    if (!has_names || has_short_names(scene.system)) return std::nullopt;
+    return scene_toml(scene);
+  } catch (const SceneError&) {
+    return std::nullopt;  // it may be right with other bodies
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::vector<Setting> settings_of(std::string_view lines) {
+  std::vector<Setting> settings;
+  if (lines.size() > kMaxSceneFile_bytes) throw UsageError("page: too many settings");
+  for (const std::string& line : split(lines, '\n')) {
+    if (line.empty()) continue;
+    const std::size_t equals = line.find('=');
+    Setting& setting = settings.emplace_back(Setting{line.substr(0, equals), {}});
+    if (equals == std::string::npos) continue;
+    setting.texts = split(std::string_view(line).substr(equals + 1), '\t');
+  }
+  return settings;
+}
+
+bool are_alike(std::string_view one, std::string_view other) {
+  constexpr std::array<std::string_view, 3> kMass = {"digits", "mass-ratio", "red.mass"};
+  return one == other ||
+         (std::ranges::count(kMass, one) > 0 && std::ranges::count(kMass, other) > 0);
+}
+
+std::unique_ptr<ScriptBuilder> builder_of(std::string_view text,
+                                          const std::vector<Setting>& settings,
+                                          const std::vector<LeftOut>& left_out) {
+  std::vector<Setting> of_bodies;
+  std::vector<Setting> others;
+  for (const Setting& setting : settings) {
+    (number_in(setting.key, "body ") > 0 ? of_bodies : others).push_back(setting);
+  }
+  if (!of_bodies.empty()) {
+    if (const auto with_bodies = text_with_wall(text, others, left_out)) {
+      return read(*with_bodies, of_bodies, left_out);
+    }
+  }
+  return read(text, settings, left_out);
+}
+
+}  // namespace piblocks::web
