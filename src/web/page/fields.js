@@ -22,10 +22,13 @@ const GROUPS = [
     {key: "show.title", label: "Title", empty: ""},
     {key: "show.caption", label: "Caption", empty: ""}]},
   {title: "Blocks", fields: [
+    {key: "digits", label: "Digits of π"},
     {key: "mass-ratio", label: "Mass ratio"},
     {key: "base", label: "Base", slider: [2, 36, 1]},
     {key: "blue.position", label: "Blue: position", slider: [0.5, 6, 0.05]},
     {key: "red.position", label: "Red: position", slider: [1.5, 12, 0.05]},
+    {key: "blue.velocity", label: "Blue: velocity"},
+    {key: "red.velocity", label: "Red: velocity"},
     {key: "blue.width", label: "Blue: width", slider: [0.1, 3, 0.05]},
     {key: "red.width", label: "Red: width", slider: [0.1, 3, 0.05]},
     {key: "blocks.restitution", label: "Restitution of blocks", slider: [0, 1, 0.01]},

@@ -47,7 +47,7 @@ def page_is_usable_after_a_refused_link(check):
     _leave_all_fields(check)
     check.expect("exceptions of fields", check.page.take_failures(), [])
     check.expect("the text stays", check.value("text"), REFUSED)
-    check.page.press("copy-link")
+    check.page.press("share")
     check.page.press("next-frame")
     check.page.press("show-text")
     check.expect("messages after the text was given up", check.page.call("problems"), [])
