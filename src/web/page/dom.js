@@ -12,7 +12,7 @@ export const targetOf = event => event.target;
 export function element(name, properties = {}, ...children) {
   const made = document.createElement(name);
   for (const [property, value] of Object.entries(properties)) {
-    if (property.includes("-")) made.setAttribute(property, value);
+    if (property.includes("-") || property === "role") made.setAttribute(property, value);
     else made[property] = value;
   }
   made.append(...children);

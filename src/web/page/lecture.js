@@ -45,7 +45,7 @@ export class Lecture {
       this.#session.setScreen(pixelsOf(innerWidth, innerHeight));
     } else {
       const isUpright = innerWidth < 640 && innerHeight > innerWidth;
-      this.#session.setScreen(isUpright ? "1080x1080" : "");
+      this.#session.setScreen(isUpright ? "1080x1350" : "");
     }
   }
 

@@ -50,6 +50,7 @@ export class Session {
   /** {key or TEXT: problems}; an edit in it is in the wish, and not in the state. */
   #refused = new Map();
   #saidOfText = [];
+  #leftOut = [];
   /** The keys that the program tries. */
   #tried = [];
   /** Whether the program has the scene; false after a restart. */
@@ -167,7 +168,7 @@ export class Session {
     this.#forgetWishes();
     this.#replaceProgram();
     this.onRefused();
-    if (this.facts) this.onOpened(this.facts, []);
+    if (this.facts) this.onOpened(this.facts, this.#leftOut);
   }
 
   #want(wish, place = null) {
@@ -252,7 +253,7 @@ export class Session {
     }
     this.#tried = [];
     this.onRefused();
-    if (this.facts) this.onOpened(this.facts, []);
+    if (this.facts) this.onOpened(this.facts, this.#leftOut);
   }
 
   async #showWanted() {
@@ -336,6 +337,7 @@ export class Session {
     // The picture first: it is what a hand on a slider waits for.
     this.onPicture(answer.picture);
     this.onShown(answer.picture.shown);
+    this.#leftOut = answer.leftOut;
     this.onOpened(answer.facts, answer.leftOut);
     this.onPlaceProblem(place ? answer.placeProblem : "");
     return [];
