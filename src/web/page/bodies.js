@@ -35,7 +35,10 @@ export class Bodies {
   update(facts) {
     byId("bodies").hidden = !facts.bodies;
     this.#facts = facts.bodies;
-    if (!facts.bodies) return;
+    if (!facts.bodies) {
+      this.#cells = [];
+      return;
+    }
     const {count, rows, room} = facts.bodies;
     const isListed = count === rows.length;
     this.#hint.hidden = isListed;

@@ -71,6 +71,7 @@ class Field {
     this.session = session;
     this.id = `field-${spec.key.replace(/[. ]/g, "-")}`;
     this.problem = element("p", {className: "problem", id: `${this.id}-problem`, hidden: true, role: "alert"});
+    this.note = element("p", {className: "hint", hidden: true, role: "status"});
     this.choices = lists[spec.choices];
     const makers = {text: this.makeText, slider: this.makeSliderAlone, choice: this.makeChoice,
       flag: this.makeFlag, names: this.makeNames, range: this.makeRange};
@@ -80,6 +81,8 @@ class Field {
 
   /** Inputs that a problem makes invalid. */
   inputs = [];
+  /** Whether the last edit was typed. Only what is typed can be wrong; anything else goes back. */
+  isTyped = false;
 
   makeInput(properties) {
     const made = element("input", {"aria-describedby": this.problem.id, ...properties});
@@ -100,7 +103,7 @@ class Field {
   makeRow(...values) {
     return element("div", {className: "field"},
       element("label", {htmlFor: this.id}, this.spec.label),
-      element("span", {className: "value"}, ...values), this.problem);
+      element("span", {className: "value"}, ...values), this.note, this.problem);
   }
 
   makeText() {
@@ -112,7 +115,7 @@ class Field {
       main.setAttribute("list", `${this.id}-hints`);
       values.push(element("datalist", {id: `${this.id}-hints`}, ...hints.map(value => element("option", {value}))));
     }
-    main.addEventListener("input", () => this.edited(main.value));
+    main.addEventListener("input", () => this.typed(main.value));
     if (slider) values.unshift(this.makeSlider(value => main.value = value));
     this.showValue = facts => {
       if (document.activeElement !== main) main.value = this.textOf(facts);
@@ -193,14 +196,13 @@ class Field {
       });
       return box;
     });
-    this.reasons = element("p", {className: "hint", hidden: true});
     this.showValue = facts => {
       chosen = facts.keys[this.spec.key].filter(name => this.choices.includes(name));
       for (const box of this.boxes) box.checked = chosen.includes(box.value);
     };
     return element("fieldset", {className: "field list"}, element("legend", {}, this.spec.label),
       element("span", {className: "names"},
-        ...this.boxes.map(box => element("label", {}, box, box.value))), this.reasons, this.problem);
+        ...this.boxes.map(box => element("label", {}, box, box.value))), this.note, this.problem);
   }
 
   /** @param reasons  by name, why it cannot be added */
@@ -212,14 +214,14 @@ class Field {
       box.parentElement.title = reason ?? "";
       if (reason) byReason.set(reason, [...(byReason.get(reason) ?? []), box.value]);
     }
-    sayIn(this.reasons, [...byReason].map(([reason, names]) => `${names.join(", ")}: ${reason}.`).join("\n"));
+    sayIn(this.note, [...byReason].map(([reason, names]) => `${names.join(", ")}: ${reason}.`).join("\n"));
   }
 
   makeRange() {
     const ends = ["low", "high"].map((end, i) => this.makeLine({id: i ? `${this.id}-high` : this.id,
       "aria-label": `${this.spec.label}, ${end} end`}));
     for (const end of ends) {
-      end.addEventListener("input", () => this.edited(ends.map(one => one.value).join("\t")));
+      end.addEventListener("input", () => this.typed(ends.map(one => one.value).join("\t")));
     }
     this.showValue = facts => ends.forEach((end, i) => {
       if (document.activeElement !== end) end.value = facts.keys[this.spec.key][i];
@@ -236,10 +238,16 @@ class Field {
     return keys[this.spec.key]?.join(", ") ?? null;
   }
 
+  typed(text) {
+    this.edited(text);
+    this.isTyped = true;
+  }
   edited(text) {
+    this.isTyped = false;
     // Tabs separate the values of a list, line breaks the keys.
     const value = this.spec.kind === "range" ? text : text.replace(/[\t\n\r]+/g, " ");
     const {key, empty} = this.spec;
+    if (!this.boxes) sayIn(this.note, "");
     this.session.edit(key, value === "" && empty !== undefined ? empty : value);
   }
 
@@ -264,8 +272,14 @@ class Field {
   }
 
   say(problems) {
-    sayIn(this.problem, problems.map(problem => wordsOf(problem, this.spec.key)).join("\n"));
-    for (const input of this.inputs) input.setAttribute("aria-invalid", String(problems.length > 0));
+    const words = problems.map(problem => wordsOf(problem, this.spec.key)).join("\n");
+    if (words && !this.isTyped) {
+      sayIn(this.note, words);
+      this.session.forget(this.spec.key);
+      return;
+    }
+    sayIn(this.problem, words);
+    for (const input of this.inputs) input.setAttribute("aria-invalid", String(words !== ""));
     this.refresh();
   }
 }

@@ -132,6 +132,7 @@ session.onOpened = (facts, left) => {
   sayIn(byId("notes"), notes.filter(note => note).join("\n"));
   sayLeftOut();
   updateScene();
+  document.body.dataset.hasChoices = "false";  // for tests, which wait for it
   clearTimeout(choicesTimer);
   choicesTimer = setTimeout(updateChoices, 150);
   if (firstPlace) invite(firstPlace);
@@ -139,20 +140,28 @@ session.onOpened = (facts, left) => {
 };
 
 async function updateChoices() {
-  if (session.isBusy) return;
+  if (session.isBusy) {
+    choicesTimer = setTimeout(updateChoices, 150);
+    return;
+  }
   const facts = session.facts;
   const choices = await session.choices().catch(() => ({}));
-  if (facts === session.facts) fields.disable(choices);
+  if (facts !== session.facts) return;
+  fields.disable(choices);
+  document.body.dataset.hasChoices = "true";
 }
 
 const isWhole = snapshot => snapshot.leftOut.length === 0;
 
 /** What the picture had to do without. */
 function sayLeftOut() {
-  const words = leftOut.map(({key, item, reason}) =>
-    `${item ? `\u2018${item}\u2019` : fields.labelOf(key) ?? key} is left out: ${reason}`);
-  byId("left-out").hidden = words.length === 0;
-  byId("left-out").firstElementChild.textContent = words.join(" ");
+  const byReason = new Map();
+  for (const {key, item, reason} of leftOut) {
+    byReason.set(reason, [...(byReason.get(reason) ?? []), item || (fields.labelOf(key) ?? key)]);
+  }
+  const words = [...byReason].map(([reason, names]) => `${names.join(", ")} (${reason})`);
+  byId("left-out").hidden = leftOut.length === 0;
+  byId("left-out").firstElementChild.textContent = `Left out: ${words.join("; ")}.`;
   byId("bring-back").hidden = !steps.has(isWhole);
 }
 byId("bring-back").addEventListener("click", () => steps.backTo(isWhole));
