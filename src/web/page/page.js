@@ -233,7 +233,9 @@ function invite(place) {
   const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
   if (place.frame !== 0) return;
   invitation.hidden = false;
-  if (!isStill && options.get("autoplay") !== "0") player.play({isSilent: true});
+  if (isStill || options.get("autoplay") === "0") return;
+  // Nobody has to wait for what a lecturer has time to say.
+  player.play({isSilent: true, from: Number(session.facts.keys["time.hold-start"]?.[0] ?? 0)});
 }
 
 /** @returns text and place of the address; null if it has no scene. */
