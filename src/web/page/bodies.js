@@ -73,7 +73,7 @@ export class Bodies {
     input.addEventListener("input", () => {
       const of = this.#cells[number - 1].filter(cell => cell.dataset.property === property);
       const words = of.map(cell => cell.value.replace(/[\t\n\r]+/g, " ")).join("\t");
-      this.#session.edit(`body ${number}.${this.#keyOf(property)}`, words);
+      this.#session.edit(`body ${number}.${this.#keyOf(property)}`, words, true);
     });
     input.addEventListener("keydown", event => {
       if (event.key === "Escape") this.#session.forget(`body ${number}.${this.#keyOf(property)}`);

@@ -69,7 +69,8 @@ class Field {
   constructor(spec, session, lists) {
     this.spec = spec;
     this.session = session;
-    this.id = `field-${spec.key.replace(/[. ]/g, "-")}`;
+    // A key may have a slider and, elsewhere, a field for exact values.
+    this.id = `${spec.kind === "slider" ? "slider" : "field"}-${spec.key.replace(/[. ]/g, "-")}`;
     this.problem = element("p", {className: "problem", id: `${this.id}-problem`, hidden: true, role: "alert"});
     this.note = element("p", {className: "hint", hidden: true, role: "status"});
     this.choices = lists[spec.choices];
@@ -81,8 +82,8 @@ class Field {
 
   /** Inputs that a problem makes invalid. */
   inputs = [];
-  /** Whether the last edit was typed. Only what is typed can be wrong; anything else goes back. */
-  isTyped = false;
+  /** Whether an edit of this field is the last one of its key that the program has not taken. */
+  hasEdited = false;
 
   makeInput(properties) {
     const made = element("input", {"aria-describedby": this.problem.id, ...properties});
@@ -239,16 +240,15 @@ class Field {
   }
 
   typed(text) {
-    this.edited(text);
-    this.isTyped = true;
+    this.edited(text, true);
   }
-  edited(text) {
-    this.isTyped = false;
+  edited(text, isTyped = false) {
+    this.hasEdited = true;
     // Tabs separate the values of a list, line breaks the keys.
     const value = this.spec.kind === "range" ? text : text.replace(/[\t\n\r]+/g, " ");
     const {key, empty} = this.spec;
     if (!this.boxes) sayIn(this.note, "");
-    this.session.edit(key, value === "" && empty !== undefined ? empty : value);
+    this.session.edit(key, value === "" && empty !== undefined ? empty : value, isTyped);
   }
 
   isShown(facts) {
@@ -273,12 +273,17 @@ class Field {
 
   say(problems) {
     const words = problems.map(problem => wordsOf(problem, this.spec.key)).join("\n");
-    if (words && !this.isTyped) {
-      sayIn(this.note, words);
-      this.session.forget(this.spec.key);
+    const {key, kind} = this.spec;
+    if (words && !this.session.isTyped(key)) {
+      if (this.hasEdited) {
+        sayIn(this.note, words);
+        this.session.forget(key);
+      }
+      this.hasEdited = false;
       return;
     }
-    sayIn(this.problem, words);
+    this.hasEdited = false;
+    sayIn(this.problem, kind === "slider" ? "" : words);
     for (const input of this.inputs) input.setAttribute("aria-invalid", String(words !== ""));
     this.refresh();
   }

@@ -51,6 +51,7 @@ export class Session {
   #refused = new Map();
   #saidOfText = [];
   #leftOut = [];
+  #typed = new Set();
   /** The keys that the program tries. */
   #tried = [];
   /** Whether the program has the scene; false after a restart. */
@@ -78,6 +79,9 @@ export class Session {
   get snapshot() {
     return {...this.#state, place: this.#place};
   }
+  isTyped(key) {
+    return this.#typed.has(key);
+  }
   problemsOf(name) {
     return this.#refused.get(name) ?? [];
   }
@@ -103,8 +107,11 @@ export class Session {
     this.#want({text, edits}, place);
   }
 
-  /** @param value  null for the default */
-  edit(key, value) {
+  /** @param value  null for the default
+   * @param isTyped  only what is typed can be wrong; the field takes anything else back */
+  edit(key, value, isTyped = false) {
+    if (isTyped) this.#typed.add(key);
+    else this.#typed.delete(key);
     const others = this.#wish.edits.filter(([other]) => !isAlike(key, other));
     for (const other of this.refusedKeys) {
       if (isAlike(key, other)) this.#refused.delete(other);
