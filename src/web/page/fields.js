@@ -282,7 +282,7 @@ class Field {
       this.hasEdited = false;
       return;
     }
-    this.hasEdited = false;
+    this.hasEdited &&= this.session.isWaiting(key);
     sayIn(this.problem, kind === "slider" ? "" : words);
     for (const input of this.inputs) input.setAttribute("aria-invalid", String(words !== ""));
     this.refresh();

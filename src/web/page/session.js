@@ -83,7 +83,7 @@ export class Session {
     return this.#typed.has(key);
   }
   problemsOf(name) {
-    return this.#refused.get(name) ?? [];
+    return this.#refused.get(name) ?? (name === TEXT ? this.#saidOfText : []);
   }
   get refusedKeys() {
     return [...this.#refused.keys()];
@@ -309,7 +309,6 @@ export class Session {
     for (const [key, words] of this.#refused) {
       if (words.includes(TOO_LONG) && !refused.has(key)) refused.set(key, words);
     }
-    if (this.#saidOfText.length > 0) refused.set(TEXT, this.#saidOfText);
     if (!this.#isNewer) this.#refused = refused;
     this.onRefused();
   }

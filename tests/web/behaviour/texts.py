@@ -69,7 +69,7 @@ def scene_that_is_chosen_while_a_text_waits(check):
 
 def scene_that_is_chosen_while_the_text_has_the_focus(check):
     check.page.choose("lecture")
-    check.page.value("document.getElementById('text-group').open = true")
+    check.open_fields()
     check.browser.type(TEXT, "digits = 3\nbase")
     check.page.value("check.later(300).then(check.idle)")
     check.expect("a message", check.said("text-problem") != "")
