@@ -5,13 +5,14 @@
 import {byId} from "./dom.js";
 
 const BAR_ms = 2000;
-/** More pixels would not be drawn 60 times a second. */
+/** More pixels would not be drawn 60 times a second; in fewer there is no room for text. */
 const MOST_PIXELS = 3840 * 2160;
+const LEAST_SIDE_px = 1280;
 const even = length => 2 * Math.round(length / 2);
 
 /** The pixels of an area of the page. */
 function pixelsOf(width, height) {
-  const density = devicePixelRatio || 1;
+  const density = Math.max(devicePixelRatio || 1, LEAST_SIDE_px / Math.max(width, height));
   const scale = Math.min(density, Math.sqrt(MOST_PIXELS / (width * height)));
   return `${even(width * scale)}x${even(height * scale)}`;
 }
@@ -39,10 +40,15 @@ export class Lecture {
     this.update();
   }
 
-  /** Upright on a telephone that is held so; the scene's own size where there is room for it. */
+  /** The shape of the screen, or of the frame in another page; upright on a telephone that is held so;
+   * else the scene's own. */
   update() {
+    const {classList} = document.body;
     if (this.#isOn) {
       this.#session.setScreen(pixelsOf(innerWidth, innerHeight));
+    } else if (classList.contains("embedded")) {
+      const bar_px = classList.contains("bare") ? 0 : 6 * 16;
+      this.#session.setScreen(pixelsOf(innerWidth, Math.max(innerHeight - bar_px, innerWidth / 3)));
     } else {
       const isUpright = innerWidth < 640 && innerHeight > innerWidth;
       this.#session.setScreen(isUpright ? "1080x1350" : "");
