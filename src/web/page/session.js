@@ -52,8 +52,8 @@ export class Session {
   #saidOfText = [];
   #leftOut = [];
   #typed = new Set();
-  /** The keys that the program tries. */
-  #tried = [];
+  /** What the program tries: the edits that it has not accepted yet, and the text if it is another one. */
+  #tried = {edits: [], text: null};
   /** Whether the program has the scene; false after a restart. */
   #hasScene = false;
   /** When the program began its task; null while it has none. */
@@ -173,6 +173,7 @@ export class Session {
   /** Ends what the program does, and goes on with the scene that it has accepted. */
   stop() {
     this.#forgetWishes();
+    this.#tried = {edits: [], text: null};
     this.#replaceProgram();
     this.onRefused();
     if (this.facts) this.onOpened(this.facts, this.#leftOut);
@@ -249,8 +250,14 @@ export class Session {
   #recover(error) {
     this.#replaceIfBroken();
     if (error instanceof Failure && error.message === STOPPED) {
-      for (const key of this.#tried) this.#refused.set(key, [TOO_LONG]);
-      this.#wish = {...this.#wish, edits: this.#wish.edits.filter(([key]) => !this.#tried.includes(key))};
+      // What is wanted no more needs no words.
+      const slow = this.#tried.edits.filter(edit => this.#wish.edits.includes(edit));
+      for (const [key] of slow) this.#refused.set(key, [TOO_LONG]);
+      if (this.#tried.text !== null && this.#tried.text === this.#wish.text) {
+        this.#refused.set(TEXT, [TOO_LONG]);
+        this.#wish = this.#state;
+      }
+      this.#wish = {...this.#wish, edits: this.#wish.edits.filter(edit => !slow.includes(edit))};
     } else {
       this.#forgetWishes();
       const reason = "The program crashed and was restarted; changes that it had not accepted were " +
@@ -258,7 +265,7 @@ export class Session {
       this.#refused.set("program", [{origin: "", key: "", reason}]);
       if (!(error instanceof Failure)) reportError(error);
     }
-    this.#tried = [];
+    this.#tried = {edits: [], text: null};
     this.onRefused();
     if (this.facts) this.onOpened(this.facts, this.#leftOut);
   }
@@ -304,7 +311,7 @@ export class Session {
       // What is left is shown already.
       if (wish.text === this.#state.text && linesOf(edits) === linesOf(this.#state.edits)) break;
     }
-    this.#tried = [];
+    this.#tried = {edits: [], text: null};
     if (this.#wish === wish && refused.has(TEXT)) this.#wish = this.#state;
     for (const [key, words] of this.#refused) {
       if (words.includes(TOO_LONG) && !refused.has(key)) refused.set(key, words);
@@ -324,9 +331,8 @@ export class Session {
   async #try(wish) {
     // A step is relative to the picture that is shown, so it means nothing in another scene.
     const place = this.#wantedPlace?.step ? null : this.#wantedPlace;
-    const isKnown = edit => this.#state.edits.includes(edit);
-    this.#tried = wish.edits.filter(edit => !isKnown(edit)).map(([key]) => key);
-    if (this.#tried.length === 0 && wish.text !== this.#state.text) this.#tried = [TEXT];
+    this.#tried = {edits: wish.edits.filter(edit => !this.#state.edits.includes(edit)),
+      text: wish.text === this.#state.text ? null : wish.text};
     let answer;
     try {
       answer = await this.#call("open", {text: wish.text, settings: linesOf(wish.edits),
