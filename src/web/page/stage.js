@@ -63,7 +63,8 @@ export class Stage {
     return {x: (clientX - left) * unit, y: (clientY - top) * unit, unit};
   }
 
-  /** What can be grabbed there: {key, value, scale}: a key, its value and pixels for each unit of it. */
+  /** What can be grabbed there: a key, its value and pixels for each unit of it near that value; of an
+   * arrow, where it begins. */
   #handleAt({x, y, unit}) {
     const {stage, state} = this.#shown ?? {};
     if (!stage || !state || !this.#session.facts?.ranges) return null;
@@ -72,7 +73,7 @@ export class Stage {
     for (const {key, arrow} of stage.blocks) {
       if (!arrow || !stage.arrowScale) continue;
       if (Math.hypot(x - arrow[2], y - arrow[3]) < 1.5 * reach) {
-        return {key: `${key}.velocity`, value: Number(now[key].velocity), scale: stage.arrowScale};
+        return {key: `${key}.velocity`, value: Number(now[key].velocity), scale: stage.arrowScale, from: arrow[0]};
       }
     }
     for (const {key, rect: [left, top, width, height]} of stage.blocks) {
@@ -112,9 +113,17 @@ export class Stage {
   }
 
   #drag({handle, place}, {x, unit}) {
-    const {key, value, scale} = handle;
+    const {key, value, scale, from} = handle;
     const range = this.#session.facts.ranges[key] ?? [-Infinity, Infinity];
-    this.#session.edit(key, snapped(value + (x - place.x) / scale, stepOf(unit / scale), range));
+    const wanted = from === undefined ? value + (x - place.x) / scale : this.#velocityOf(x - from);
+    this.#session.edit(key, snapped(wanted, stepOf(unit / scale), range));
+  }
+
+  /** Of an arrow of this length: longer ones stand for ever larger velocities. */
+  #velocityOf(length) {
+    const {arrowScale, longestArrow} = this.#shown.stage;
+    const share = Math.min(Math.abs(length) / longestArrow, 0.95);
+    return Math.sign(length) * share * longestArrow / (1 - share) / arrowScale;
   }
 
   #end(event) {
