@@ -35,10 +35,9 @@ async function after(action) {
   return problems();
 }
 
-function field(key) {
-  const root = document.querySelector(`[data-key="${key}"]`);
-  return root.querySelector("input[type=text]") ?? root.querySelector("select, input");
-}
+/** Where its value is typed or chosen; a key may have a slider elsewhere. */
+const field = key => document.querySelector(`[data-key="${key}"] input[type=text]`) ??
+  document.querySelector(`[data-key="${key}"] :is(select, input)`);
 
 /** What is said beside a field, or in an element of this id. */
 function said(name) {

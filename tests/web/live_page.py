@@ -16,6 +16,9 @@ HELPERS = (pathlib.Path(__file__).resolve().parent / "live_page.js").read_text()
 class LivePage:
     def __init__(self, browser, path, address=""):
         self.browser = browser
+        # The page would play by itself.
+        if hasattr(browser, "prefer"):
+            browser.prefer(prefers_reduced_motion="reduce")
         self.load(path, address)
 
     def load(self, path, address=""):
@@ -32,6 +35,7 @@ class LivePage:
         else:
             sys.exit(f"live_page: shows nothing: {address[:40]} {self.take_failures()}")
         self.value("check.idle().then(() => true)")
+        self.run("if (!document.getElementById('exact').checked) document.getElementById('exact').click();")
 
     def value(self, script):
         return self.browser.value(script)

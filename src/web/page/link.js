@@ -1,23 +1,18 @@
 // The scene in the address of the page.
-// In: an address, or the text of a scene. Out: the text, or the address: "#lecture" is a scene of
-// the program, "#toml=…" any other, compressed.
+// In: an address, or a scene and an instant. Out: the scene and the instant, or the address:
+// "#lecture@16" is a scene of the program at time 16, "#toml=…" any other, compressed.
 
 const toBase64 = bytes => btoa(Array.from(bytes, byte => String.fromCharCode(byte)).join(""))
   .replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 const fromBase64 = text =>
   Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), c => c.charCodeAt(0));
 
-async function through(stream, bytes) {
-  const result = new Blob([bytes]).stream().pipeThrough(stream);
-  return new Uint8Array(await new Response(result).arrayBuffer());
-}
-
 /** Longer texts than the program takes are not even unpacked. */
 const MOST_BYTES = 1 << 20;
 
-async function addressOf(text) {
-  const bytes = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(text));
-  return `#toml=${toBase64(bytes)}`;
+async function packed(text) {
+  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+  return toBase64(new Uint8Array(await new Response(stream).arrayBuffer()));
 }
 
 async function unpacked(bytes) {
@@ -34,16 +29,30 @@ async function unpacked(bytes) {
   }
 }
 
-/** @returns the text of a scene; null if the address has none. @throws Error if it cannot be read. */
-async function sceneOf(address, scenes) {
+/** The part of an address that says which scene it is. @param name  of the program's, or undefined */
+export const sceneAddress = async (text, name) => `#${name ?? `toml=${await packed(text)}`}`;
+
+/** The part that says which place; nothing for the start.
+ * @param {{instant?: string, frame?: number}} place
+ * @param rate  frames and seconds of the film */
+export function placeAddress({instant, frame}, shown, rate) {
+  if (instant !== undefined) return `@${encodeURIComponent(instant)}`;
+  if (frame === 0 || shown === null) return "";
+  const time = shown.state === null ? frame * rate[1] / rate[0] : JSON.parse(shown.state).time;
+  return `@${Number(Number(time).toFixed(4))}`;
+}
+
+/** @returns text and place of the address; null if it has none. @throws Error if it cannot be read. */
+export async function sceneOf(address, scenes) {
   if (address.length < 2) return null;
-  const name = decodeURIComponent(address.slice(1));
-  const shipped = scenes.find(scene => scene.name === name);
-  if (shipped) return shipped.text;
-  const packed = name.match(/^toml=([A-Za-z0-9_-]+)$/)?.[1];
-  if (!packed) throw new Error(`there is no scene '${name}'`);
+  const [scene, instant] = address.slice(1).split("@").map(decodeURIComponent);
+  const place = instant ? {instant} : {frame: 0};
+  const shipped = scenes.find(one => one.name === scene);
+  if (shipped) return {text: shipped.text, place};
+  const bytes = scene.match(/^toml=([A-Za-z0-9_-]+)$/)?.[1];
+  if (!bytes) throw new Error(`there is no scene '${scene}'`);
   try {
-    return await unpacked(fromBase64(packed));
+    return {text: await unpacked(fromBase64(bytes)), place};
   } catch (error) {
     throw new Error(`the scene in the link cannot be read: ${error.message}`);
   }

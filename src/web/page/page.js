@@ -1,173 +1,194 @@
-// The page: its parts, and what flows between them.
+// The page: its parts, and what flows between them. Controls make wishes of the session, the session
+// tells what the program makes of them, and the parts show that.
 
-const picture = byId("picture");
-const canvas = picture.getContext("2d");
-const scene = new Scene();
-const {scenes, ...lists} = await scene.started.catch(error => {
-  sayIn(byId("problem"), `This browser cannot run the program: ${error.message}`);
-  throw error;
-});
-const player = new Player(scene);
-const saving = new Saving(scene, () => player.pause());
-const fields = new Fields(scene, lists, byId("save-group"));
-const bodies = new Bodies(scene, byId("settings").firstElementChild);
-const text = byId("text");
+import {Bodies} from "./bodies.js";
+import {byId, element, sayIn, targetOf} from "./dom.js";
+import {Fields} from "./fields.js";
+import {Steps} from "./history.js";
+import {listenToKeys} from "./keys.js";
+import {Lecture} from "./lecture.js";
+import {placeAddress, sceneAddress, sceneOf} from "./link.js";
+import {Player} from "./player.js";
+import {wordsOf} from "./program.js";
+import {Readouts, wordsOfPicture} from "./readouts.js";
+import {Saving} from "./saving.js";
+import {Session, TEXT} from "./session.js";
+import {copy, Sharing} from "./sharing.js";
+import {Stage} from "./stage.js";
 
 /** What is shown if nothing else can be. */
 const FIRST_SCENE = "lecture";
+const options = new URLSearchParams(location.search);
+if (options.get("embed") === "1") document.body.classList.add("embedded");
+if (options.get("controls") === "0") document.body.classList.add("bare");
 
+const session = new Session();
+const {scenes, ...lists} = await session.started.catch(error => {
+  sayIn(byId("problem"), `This browser cannot run the program: ${error.message}`);
+  throw error;
+});
+const player = new Player(session);
+const stage = new Stage(session, player);
+const steps = new Steps(session);
+const fields = new Fields(session, lists);
+const bodies = new Bodies(session);
+const readouts = new Readouts();
+const sharing = new Sharing();
+const saving = new Saving(session, () => player.pause());
+new Lecture(session);
+listenToKeys(() => steps.undo());
+
+const text = byId("text");
 let busyTimer = null;
-/** Stays until another scene is opened. */
-let linkProblem = "";
-/** What is shown, as the program says. */
-let shown = null;
-let hasTriedFirst = false;
 let textTimer = null;
+let addressTimer = null;
+let choicesTimer = null;
 /** Whether somebody has typed what the program has not seen, or has refused. */
 let isTextNewer = false;
+/** Stays until another scene is opened. */
+let linkProblem = "";
+let shown = null;
+/** The part of the address that names the scene; made once for each scene. */
+let address = "";
+let leftOut = [];
+let hasStepped = false;
+/** The place of the first scene, until it is shown. */
+let firstPlace = null;
+
+/** The scene of the program that is shown; undefined if it is another one. */
+const shippedScene = () => scenes.find(one => one.text === session.text);
+const shippedText = name => scenes.find(one => one.name === name).text;
 
 /** Writes the scene into the text area, if nothing newer is there. */
 function showText() {
   const isUsed = document.activeElement === text && isTextNewer;
-  if (isUsed || textTimer !== null || scene.isWaiting("text") || !byId("text-problem").hidden) return;
-  if (text.value !== scene.text) text.value = scene.text;
+  if (isUsed || textTimer !== null || session.isTextWaiting || session.problemsOf(TEXT).length > 0) return;
+  if (text.value !== session.text) text.value = session.text;
   isTextNewer = false;
 }
 
-function forgetTyping() {
+/** Shows another scene.
+ * @param {import("./session.js").Place} place */
+function open(words, place = {frame: 0}) {
   clearTimeout(textTimer);
   textTimer = null;
   isTextNewer = false;
-  sayIn(byId("text-problem"), "");
+  player.pause();
+  linkProblem = "";
+  text.value = words;
+  session.open(words, place);
 }
+const openShipped = name => open(shippedText(name));
 
-/** The scene of the program that is shown; undefined if it is another one. */
-const shippedScene = () => scenes.find(({text: words}) => words === scene.text);
-const addressOfScene = async () => {
-  const name = shippedScene()?.name;
-  return name ? `#${name}` : await addressOf(scene.text);
-};
-
-/** If there are more bodies, only the first ones are listed. */
-const MOST_BODIES = 6;
-
-function grouped(count) {
-  return count === "infinite" ? "∞" : count.replace(/\B(?=(\d{3})+$)/g, "\u202F");
-}
-
-function stateRow(name, ...values) {
-  return element("div", {}, element("dt", {}, name),
-    ...values.map(value => element("dd", {}, value)));
-}
-
-/** A position or velocity, on a line or in a plane. */
-const vectorText = numbers => [numbers].flat().join("; ");
-
-const motionRow = (name, {position, velocity}) =>
-  stateRow(name, `x = ${vectorText(position)}`, `v = ${vectorText(velocity)}`);
-
-/** The numbers that `piblocks state` prints, as exact as there. */
-function stateRows({state, frame}, facts) {
-  const rows = [];
-  if (state !== null) {
-    const {collisions, time, blue, red, bodies: moving} = JSON.parse(state);
-    rows.push(stateRow("Collisions", grouped(collisions)), stateRow("Time", String(time)));
-    if (moving) moving.slice(0, MOST_BODIES).forEach((body, i) => rows.push(motionRow(`Body ${i + 1}`, body)));
-    else rows.push(motionRow("Blue", blue), motionRow("Red", red));
-  }
-  if (frame !== null) {
-    rows.push(stateRow("Frame", `${frame + 1} of ${facts.frames}`));
-  }
-  return rows;
-}
-
-function describe({state, frame}, facts) {
-  if (state === null) return `Frame ${frame + 1} of a film of ${facts.frames} frames`;
-  const {collisions, time, blue, red} = JSON.parse(state);
-  const where = blue ? `, blue at ${blue.position}, red at ${red.position}` : "";
-  return `${collisions} ${String(collisions) === "1" ? "collision" : "collisions"} at time ${time}${where}`;
-}
-
-scene.onPicture = ({x, y, width, height, pixels}) => {
-  const {facts} = scene;
-  if (picture.width !== facts.width || picture.height !== facts.height) {
-    picture.width = facts.width;
-    picture.height = facts.height;
-  }
-  if (width > 0) {
-    const bytes = new Uint8ClampedArray(pixels, 0, 4 * width * height);
-    canvas.putImageData(new ImageData(bytes, width, height), x, y);
-  }
-  // Memory that is too large for this picture goes.
-  if (pixels.byteLength <= 4 * facts.width * facts.height) scene.recycle(pixels);
-};
-
-scene.onShown = now => {
+session.onShown = now => {
   shown = now;
+  stage.updateShown(now);
   player.updateShown(now);
-  byId("state").replaceChildren(...stateRows(now, scene.facts));
-  if (!player.isPlaying) labelPicture();
+  readouts.show(now, session.facts);
+  if (!player.isPlaying) describePicture();
+  updateAddress();
 };
 
-const labelPicture = () => picture.setAttribute("aria-label", describe(shown, scene.facts));
-player.onPause = labelPicture;
-
-let addressTimer = null;
+/** Steps are read out; what is played is not. */
+function describePicture() {
+  const words = wordsOfPicture(shown, session.facts);
+  byId("picture").setAttribute("aria-label", words);
+  if (hasStepped) byId("announcement").textContent = words;
+  hasStepped = false;
+}
+player.onPause = describePicture;
+player.onStep = () => hasStepped = true;
 
 /** Once nothing has changed for a while: browsers allow few changes of the address a second. */
 function updateAddress() {
   clearTimeout(addressTimer);
-  addressTimer = setTimeout(async () => {
-    const address = await addressOfScene();
-    try {
-      history.replaceState(null, "", address);
-    } catch {
-      // Some browsers and frames let pages change no address, or not so long ones.
-    }
-  }, 400);
+  addressTimer = setTimeout(() => {
+    if (!address || player.isPlaying) return;
+    const whole = address + placeAddress(session.snapshot.place, shown, session.facts.rate);
+    sharing.update(whole, session.text);
+    steps.update(whole);
+  }, 250);
 }
 
-scene.onOpened = facts => {
+async function updateScene() {
+  const made = await sceneAddress(session.text, shippedScene()?.name);
+  address = made;
+  updateAddress();
+}
+
+session.onOpened = (facts, left) => {
+  leftOut = left;
   const name = shippedScene()?.name;
   byId("scenes").value = name ?? "";
   saving.name = name ?? "scene";
+  steps.note(left);
+  byId("undo").disabled = !steps.canUndo;
   showText();
   fields.update(facts);
   bodies.update(facts);
   player.update(facts);
+  byId("of-storyboard").hidden = facts.kind === "scene";
   const notes = [facts.filmProblem && `No film: ${facts.filmProblem}`, ...(facts.notes ?? [])];
   sayIn(byId("notes"), notes.filter(note => note).join("\n"));
-  updateAddress();
+  sayLeftOut();
+  updateScene();
+  document.body.dataset.hasChoices = "false";  // for tests, which wait for it
+  clearTimeout(choicesTimer);
+  choicesTimer = setTimeout(updateChoices, 150);
+  if (firstPlace) invite(firstPlace);
+  firstPlace = null;
 };
 
-scene.onProblems = problems => {
-  const others = bodies.say(fields.say(problems));
-  const ofText = others.filter(problem => problem.key === "text");
-  sayIn(byId("text-problem"), ofText.map(problem => problem.words).join("\n"));
-  text.setAttribute("aria-invalid", String(ofText.length > 0));
-  if (ofText.length > 0) byId("text-group").open = true;
-  const elsewhere = others.filter(problem => problem.key !== "text");
-  const names = problems.filter(problem => !elsewhere.includes(problem)).map(({key, body, property}) =>
-    key === "text" ? "the scene file" : key === "bodies" ? body ? `body ${body}, ${property}` : "the bodies"
-      : fields.labelOf(key) ?? bodies.labelOf(key) ?? key);
-  const leftOut = names.length > 0 && `Not applied: ${[...new Set(names)].join("; ")}. See the message beside it.`;
-  sayIn(byId("problem"), [linkProblem, ...elsewhere.map(problem => problem.words), leftOut]
-    .filter(words => words).join("\n"));
-  // If the scene of a link is wrong, the first scene is shown.
-  if (!scene.facts && !hasTriedFirst) {
-    hasTriedFirst = true;
-    scene.replace(() => shippedText(FIRST_SCENE), "first scene");
+async function updateChoices() {
+  if (session.isBusy) {
+    choicesTimer = setTimeout(updateChoices, 150);
+    return;
   }
+  const facts = session.facts;
+  const choices = await session.choices().catch(() => ({}));
+  if (facts !== session.facts) return;
+  fields.disable(choices);
+  document.body.dataset.hasChoices = "true";
+}
+
+const isWhole = snapshot => snapshot.leftOut.length === 0;
+
+/** What the picture had to do without. */
+function sayLeftOut() {
+  const byReason = new Map();
+  for (const {key, item, reason} of leftOut) {
+    byReason.set(reason, [...(byReason.get(reason) ?? []), item || (fields.labelOf(key) ?? key)]);
+  }
+  const words = [...byReason].map(([reason, names]) => `${names.join(", ")} (${reason})`);
+  byId("left-out").hidden = leftOut.length === 0;
+  byId("left-out").firstElementChild.textContent = `Left out: ${words.join("; ")}.`;
+  byId("bring-back").hidden = !steps.has(isWhole);
+}
+byId("bring-back").addEventListener("click", () => steps.backTo(isWhole));
+
+session.onRefused = () => {
+  const known = [...fields.say(session), ...bodies.say(session)];
+  const ofText = session.problemsOf(TEXT);
+  const lines = ofText.map(problem => {
+    const line = problem.origin.match(/:(\d+)$/)?.[1];
+    return `${line ? `Line ${line}: ` : ""}${wordsOf(problem)}`;
+  });
+  sayIn(byId("text-problem"), lines.join("\n"));
+  text.setAttribute("aria-invalid", String(ofText.length > 0));
+  if (ofText.length > 0) byId("more").open = byId("text-group").open = true;
+  const others = session.refusedKeys.filter(key => key !== TEXT && !known.includes(key))
+    .flatMap(key => session.problemsOf(key).map(problem => wordsOf(problem)));
+  sayIn(byId("problem"), [linkProblem, ...others].filter(words => words).join("\n"));
+  // If the scene of a link is wrong, the first scene is shown.
+  if (!session.facts && ofText.length > 0) session.openInstead(shippedText(FIRST_SCENE));
 };
 
-scene.hasField = key => fields.has(key) || bodies.has(key);
-
-scene.onPlaceProblem = words => {
+session.onPlaceProblem = words => {
   sayIn(byId("instant-problem"), words);
   byId("instant").setAttribute("aria-invalid", String(words !== ""));
 };
 
-scene.onBusy = isBusy => {
+session.onBusy = isBusy => {
   document.body.dataset.isBusy = String(isBusy);  // for tests, which wait for it
   clearTimeout(busyTimer);
   if (isBusy) busyTimer = setTimeout(() => byId("busy").hidden = false, 400);
@@ -175,26 +196,16 @@ scene.onBusy = isBusy => {
 };
 
 byId("stop").addEventListener("click", () => {
-  scene.stop();
+  session.stop();
   byId("play").focus({preventScroll: true});
-  if (!scene.facts) openShipped(FIRST_SCENE);
+  if (!session.facts) openShipped(FIRST_SCENE);
 });
 
 byId("scenes").append(element("option", {value: "", hidden: true}, "my own"),
   ...scenes.map(({name, summary}) => element("option", {value: name}, `${name}: ${summary}`)));
 byId("scenes").addEventListener("change", () => openShipped(byId("scenes").value));
-
-/** Shows the start of another scene. */
-function open(words) {
-  forgetTyping();
-  player.pause();
-  linkProblem = "";
-  text.value = words;
-  scene.open(words, {frame: 0});
-}
-
-const shippedText = name => scenes.find(one => one.name === name).text;
-const openShipped = name => open(shippedText(name));
+byId("undo").addEventListener("click", () => steps.undo());
+steps.onRestored = () => player.pause();
 
 text.addEventListener("input", () => {
   clearTimeout(textTimer);
@@ -202,66 +213,50 @@ text.addEventListener("input", () => {
   linkProblem = "";
   textTimer = setTimeout(() => {
     textTimer = null;
-    scene.open(text.value);
+    session.open(text.value);
   }, 150);
 });
 text.addEventListener("blur", showText);
+byId("show-text").addEventListener("click", () => session.facts && open(session.text, session.snapshot.place));
+byId("copy-text").addEventListener("click", event => copy(event.target, text.value, text));
+byId("settings").addEventListener("submit", event => event.preventDefault());
+document.addEventListener("click", event => {
+  if (!targetOf(event).closest("#menu")) byId("menu").open = false;
+});
 
-/** @param field  gets the words, selected, if the browser forbids the page to copy */
-async function copy(button, words, field) {
-  const {label = button.textContent} = button.dataset;
-  button.dataset.label = label;
-  try {
-    await navigator.clipboard.writeText(words);
-    button.textContent = "Copied";
-  } catch {
-    field.value = words;
-    field.hidden = false;
-    field.focus();
-    field.select();
-    button.textContent = "Press Ctrl+C";
-  }
-  setTimeout(() => button.textContent = label, 1500);
+/** The button over the picture, until the film has been played. */
+const invitation = byId("invitation");
+player.onPlay = () => invitation.hidden = true;
+
+/** Plays once by itself, unless the reader wants no motion or a place was asked for. */
+function invite(place) {
+  const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  if (place.frame !== 0) return;
+  invitation.hidden = false;
+  if (isStill || options.get("autoplay") === "0") return;
+  // Nobody has to wait for what a lecturer has time to say.
+  player.play({isSilent: true, from: Number(session.facts.keys["time.hold-start"]?.[0] ?? 0)});
 }
 
-byId("show-text").addEventListener("click", () => {
-  if (!scene.facts) return;
-  forgetTyping();
-  text.value = scene.text;
-  scene.open(scene.text);
-});
-byId("copy-text").addEventListener("click", event => copy(event.target, text.value, text));
-byId("copy-link").addEventListener("click", async event => {
-  if (!scene.facts) return;
-  copy(event.target, new URL(await addressOfScene(), location.href).href, byId("link"));
-});
-byId("link").addEventListener("blur", () => byId("link").hidden = true);
-byId("go-to-save").addEventListener("click", () => {
-  byId("save-group").open = true;
-  byId("save-group").scrollIntoView({block: "nearest"});
-  byId("save-group").querySelector("button").focus({preventScroll: true});
-});
-byId("settings").addEventListener("submit", event => event.preventDefault());
-
-/** @returns whether the address has a scene. */
-async function openAddress() {
+/** @returns text and place of the address; null if it has no scene. */
+async function wantedByAddress() {
   try {
-    const {hash} = location;
-    const found = await sceneOf(hash, scenes);
-    if (hash !== location.hash) return true;
-    if (found !== null) open(found);
-    return found !== null;
+    return await sceneOf(location.hash, scenes);
   } catch (error) {
     linkProblem = `Link: ${error.message}`;
     sayIn(byId("problem"), linkProblem);
-    return false;
+    return null;
   }
 }
-addEventListener("hashchange", openAddress);
+addEventListener("hashchange", async () => {
+  if (history.state?.step !== undefined) return;  // a step back
+  const wanted = await wantedByAddress();
+  if (wanted) open(wanted.text, wanted.place);
+});
 
 const given = JSON.parse(byId("opened-scene").textContent);
-if (!await openAddress()) {
-  const words = linkProblem;
-  open(given?.text ?? shippedText(FIRST_SCENE));
-  linkProblem = words;
-}
+const first = await wantedByAddress() ?? {text: given?.text ?? shippedText(FIRST_SCENE), place: {frame: 0}};
+const problem = linkProblem;
+firstPlace = first.place;
+open(first.text, first.place);
+linkProblem = problem;

@@ -1,14 +1,23 @@
 // The program in workers.
 // In: tasks of worker.js. Out: promises of what they say.
 
-/** The program says that this cannot be done. */
-class Problem extends Error {}
-/** The program has broken down, or was stopped. */
-class Failure extends Error {}
-/** What a Failure says of work that somebody has ended. */
-const STOPPED = "stopped";
+import {byId} from "./dom.js";
 
-const byId = id => document.getElementById(id);
+/** The program says that this cannot be done: `problems` are {origin, key, reason}. */
+export class Refusal extends Error {
+  constructor(problems) {
+    super(problems.map(wordsOf).join("\n"));
+    this.problems = problems;
+  }
+}
+/** The program has broken down, or was stopped. */
+export class Failure extends Error {}
+/** What a Failure says of work that somebody has ended. */
+export const STOPPED = "stopped";
+
+/** A problem as a sentence. @param own  the key of the field beside which it stands, if there is one */
+export const wordsOf = ({key, reason}, own = "") =>
+  !key || key === own ? reason.replace(/^= [^:]*: /, "") : `${key} ${reason}`;
 
 async function compiledProgram() {
   const packed = Uint8Array.from(atob(byId("program").textContent), c => c.charCodeAt(0));
@@ -18,7 +27,7 @@ async function compiledProgram() {
 }
 
 /** One worker, which does one task after the other. */
-class Program {
+export class Program {
   static #module = compiledProgram();
   static #script = URL.createObjectURL(
     new Blob([byId("worker").textContent], {type: "text/javascript"}));
@@ -28,7 +37,7 @@ class Program {
   #next = 0;
   /** What the program has, once it has started. */
   started;
-  onProgress = () => {};
+  onProgress = done => {};
 
   constructor() {
     this.#worker.onmessage = ({data}) => this.#receive(data);
@@ -49,7 +58,7 @@ class Program {
     return new Promise((resolve, reject) => this.#waiting.set(id, {resolve, reject}));
   }
 
-  #receive({id, progress, value, problem, failure}) {
+  #receive({id, progress, value, problems, failure}) {
     if (this.isStopped) return;
     if (progress !== undefined) {
       this.onProgress(progress);
@@ -57,7 +66,7 @@ class Program {
     }
     const {resolve, reject} = this.#waiting.get(id);
     this.#waiting.delete(id);
-    if (problem !== undefined) reject(new Problem(problem));
+    if (problems !== undefined) reject(new Refusal(problems));
     else if (failure === undefined) resolve(value);
     else {
       reject(new Failure(failure));
@@ -73,23 +82,5 @@ class Program {
     this.#worker.terminate();
     for (const {reject} of this.#waiting.values()) reject(new Failure(reason));
     this.#waiting.clear();
-  }
-}
-
-/** Does one job at a time. Of those that come meanwhile it does the newest, and drops the others. */
-class NewestOnly {
-  #next = null;
-  isBusy = false;
-
-  async add(job) {
-    this.#next = job;
-    if (this.isBusy) return;
-    this.isBusy = true;
-    while (this.#next) {
-      const now = this.#next;
-      this.#next = null;
-      await now().catch(reportError);
-    }
-    this.isBusy = false;
   }
 }

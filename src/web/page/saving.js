@@ -1,6 +1,9 @@
 // Files that the page makes: pictures of what is shown; the film by several workers.
 // In: the scene and a file extension. Out: a download, or a problem in the program's words.
 
+import {all, byId, element, sayIn} from "./dom.js";
+import {Failure, Program, Refusal, STOPPED} from "./program.js";
+
 const MEDIA_TYPES = {png: "image/png", svg: "image/svg+xml", pdf: "application/pdf",
   mp4: "video/mp4", wav: "audio/wav"};
 const MOST_WORKERS = 8;
@@ -10,9 +13,8 @@ const isFilm = extension => extension === "mp4" || extension === "wav";
 class FilmMaking {
   #workers = [];
 
-  /** @param source  {text, edits} of the scene
-   * @param onProgress  is told the fraction that is done */
-  async make({text, edits}, extension, {seconds, onProgress}) {
+  /** Tells `onProgress` the fraction that is done. @param source  text and settings of the scene */
+  async make({text, settings}, extension, {seconds, onProgress}) {
     const name = `film.${extension}`;
     const isSound = extension === "wav";
     // Shards are cut at whole seconds.
@@ -21,7 +23,7 @@ class FilmMaking {
     const progress = new Array(count).fill(0);
     this.#workers = progress.map(() => new Program());
     // The page has no encoder of AAC.
-    const settings = (isSound ? edits : edits.with([["sound.on", "false"]])).lines;
+    if (!isSound) settings += "\nsound.on=false";
     const shards = await Promise.all(this.#workers.map(async (worker, i) => {
       worker.onProgress = done => {
         progress[i] = done;
@@ -40,16 +42,16 @@ class FilmMaking {
   }
 }
 
-class Saving {
-  #scene;
+export class Saving {
+  #session;
   #making = null;
   #link = null;
-  #buttons = [...document.querySelectorAll("[data-save]")];
+  #buttons = all("[data-save]");
   /** What files are called, without an extension. */
   name = "scene";
 
-  constructor(scene, pause) {
-    this.#scene = scene;
+  constructor(session, pause) {
+    this.#session = session;
     for (const button of this.#buttons) {
       button.addEventListener("click", () => {
         pause();
@@ -60,12 +62,12 @@ class Saving {
   }
 
   async #save(extension) {
-    if (!this.#scene.facts) return;
+    if (!this.#session.facts) return;
     const name = `${this.name}.${extension}`;
     sayIn(byId("saving-problem"), "");
     byId("saved").hidden = true;
     try {
-      const bytes = isFilm(extension) ? await this.#makeFilm(extension) : await this.#scene.save(`/picture.${extension}`);
+      const bytes = isFilm(extension) ? await this.#makeFilm(extension) : await this.#session.save(`/picture.${extension}`);
       this.#download(bytes, name, extension);
     } catch (error) {
       if (!(error instanceof Failure && error.message === STOPPED)) {
@@ -76,13 +78,13 @@ class Saving {
 
   /** @throws Failure with STOPPED if it is cancelled. */
   async #makeFilm(extension) {
-    const {frames, rate, filmProblem} = this.#scene.facts;
-    if (frames === null) throw new Problem(filmProblem);
+    const {frames, rate, filmProblem} = this.#session.facts;
+    if (frames === null) throw new Refusal([{origin: "", key: "", reason: filmProblem}]);
     const making = new FilmMaking();
     this.#showMaking(making, `Rendering ${frames.toLocaleString("en")} frames`);
     try {
       const onProgress = done => byId("saving-progress").value = done;
-      return await making.make(this.#scene.source, extension,
+      return await making.make(this.#session.source, extension,
         {seconds: frames * rate[1] / rate[0], onProgress});
     } finally {
       making.stop();

@@ -1,10 +1,15 @@
 // The program, away from the page, so that the page answers while it works.
-// In: messages {id, task, ...}. Out: {id, value}, {id, problem}: what is wrong in the program's
-// words, or {id, failure}: the program has broken down; {progress} meanwhile.
+// In: messages {id, task, ...}. Out: {id, value}, {id, problems}: a list {origin, key, reason} of what
+// is wrong, or {id, failure}: the program has broken down; {progress} meanwhile.
 
 let program;
 
-class Problem extends Error {}
+class Refusal extends Error {
+  constructor(problems) {
+    super();
+    this.problems = problems;
+  }
+}
 
 /** The program refuses texts of this length. Longer ones are cut, since it has no room for them. */
 const REFUSED_LENGTH = (1 << 20) + 1;
@@ -12,7 +17,9 @@ const REFUSED_LENGTH = (1 << 20) + 1;
 /** Checks an argument. The program reads C strings, which end at the first NUL. */
 function argument(value) {
   if (typeof value !== "string") return value;
-  if (value.includes("\0")) throw new Problem("scene: has a character U+0000");
+  if (value.includes("\0")) {
+    throw new Refusal([{origin: "", key: "", reason: "The text has a character U+0000."}]);
+  }
   return value.slice(0, REFUSED_LENGTH);
 }
 
@@ -22,7 +29,7 @@ function ask(name, ...given) {
   const types = values.map(value => typeof value);
   const isDone = program.ccall(name, "boolean", types, values);
   const answer = program.ccall("live_answer", "string", [], []);
-  if (!isDone) throw new Problem(answer);
+  if (!isDone) throw new Refusal(JSON.parse(answer).problems);
   return answer;
 }
 
@@ -73,12 +80,15 @@ const tasks = {
     return JSON.parse(ask("live_program"));
   },
   /** Opens a scene and shows the first of the places that it has, otherwise its start.
-   * @param places  if there are none, nothing is shown */
-  open({text, settings, places = []}) {
-    const {facts, picture, placeProblem} =
-      JSON.parse(ask("live_open", text, settings, places.map(lineOf).join("\n")));
-    return {facts, picture: picture && pictureOf(picture), placeProblem};
+   * @param places  if there are none, nothing is shown
+   * @param screen  the size of the picture, "1080x1350", if it is not the scene's */
+  open({text, settings, places = [], screen = ""}) {
+    const {picture, ...answer} =
+      JSON.parse(ask("live_open", text, settings, places.map(lineOf).join("\n"), screen));
+    return {...answer, picture: picture && pictureOf(picture)};
   },
+  /** What cannot be added to the picture, and why. */
+  choices: () => JSON.parse(ask("live_choices")),
   /** @param place  or {step}: 1 is the next collision, -1 the one before, or the start before the first
    * @returns null if there is no such collision */
   show({place}) {
@@ -126,7 +136,7 @@ self.onmessage = async ({data: {id, task, ...details}}) => {
     const value = await tasks[task](details);
     postMessage({id, value}, transferred(value));
   } catch (error) {
-    if (error instanceof Problem) postMessage({id, problem: error.message});
+    if (error instanceof Refusal) postMessage({id, problems: error.problems});
     else postMessage({id, failure: String(error?.message ?? error)});
   }
 };

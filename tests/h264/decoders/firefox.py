@@ -19,7 +19,7 @@ class Firefox:
     def __init__(self, folder):
         folder.mkdir()
         # Any port that is free; Firefox says which one.
-        (folder / "user.js").write_text('user_pref("marionette.port", 0);\n')
+        (folder / "user.js").write_text('user_pref("marionette.port", 0);\nuser_pref("ui.prefersReducedMotion", 1);\n')
         self._process = subprocess.Popen(
             ["firefox-esr", "--headless", "--marionette", "--remote-allow-system-access", "--no-remote",
              "--profile", folder],

@@ -5,7 +5,7 @@ In: a Check. Out: its faults.
 
 # Those that can be seen.
 ROWS = "[...document.querySelectorAll('.bodies tr')].filter(one => one.checkVisibility())"
-ADD = "document.querySelector('#bodies-group > button')"
+ADD = "document.querySelector('#add-body')"
 REMOVERS = "[...document.querySelectorAll('.bodies td button')].filter(one => !one.disabled)"
 
 

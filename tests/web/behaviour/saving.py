@@ -89,6 +89,7 @@ def film_has_the_name_of_its_scene(check):
     check.page.choose("gas")
     _start_film(check)
     check.page.choose("circle")
+    check.open_fields()
     check.page.value("document.getElementById('instant').focus()")
     check.page.value("check.until('the film', () => check.files.length === 1)")
     check.page.value(f"check.until('it is over', () => !({SEEN}))")

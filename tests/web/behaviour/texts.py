@@ -47,7 +47,7 @@ def page_is_usable_after_a_refused_link(check):
     _leave_all_fields(check)
     check.expect("exceptions of fields", check.page.take_failures(), [])
     check.expect("the text stays", check.value("text"), REFUSED)
-    check.page.press("copy-link")
+    check.page.press("share")
     check.page.press("next-frame")
     check.page.press("show-text")
     check.expect("messages after the text was given up", check.page.call("problems"), [])
@@ -69,7 +69,7 @@ def scene_that_is_chosen_while_a_text_waits(check):
 
 def scene_that_is_chosen_while_the_text_has_the_focus(check):
     check.page.choose("lecture")
-    check.page.value("document.getElementById('text-group').open = true")
+    check.open_fields()
     check.browser.type(TEXT, "digits = 3\nbase")
     check.page.value("check.later(300).then(check.idle)")
     check.expect("a message", check.said("text-problem") != "")
