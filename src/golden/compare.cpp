@@ -106,7 +106,8 @@ std::int64_t clear_masked(std::span<const PixelRect> masks, int y, std::vector<L
   std::int64_t cleared = 0;
   for (const PixelRect& r : masks) {
     if (y < r.y_px || y - r.y_px >= r.height_px) continue;
-    const auto right = std::min<std::int64_t>(std::int64_t{r.x_px} + r.width_px, std::ssize(deltas));
+    const auto right =
+        std::min<std::int64_t>(std::int64_t{r.x_px} + r.width_px, std::ssize(deltas));
     for (std::int64_t x = std::max(r.x_px, 0); x < right; ++x) {
       cleared += std::exchange(deltas[static_cast<std::size_t>(x)], Level{0}) != 0 ? 1 : 0;
     }

@@ -23,6 +23,9 @@ constexpr std::size_t kMostLeftOut = 60;
 /// When a scene ends that has no other end: nothing happens from time 0 on, or for ever.
 constexpr const char* kFixedEnd = "10";
 
+/// The theme with room for counts of any length.
+constexpr const char* kPlainTheme = "article";
+
 bool is_body_label(const std::string& key) {
   return number_in(key, "body ") > 0 && key.ends_with(".label");
 }
@@ -80,6 +83,7 @@ class Opener {
       opening.builder->set("time.from", "time.from", "0");
       opening.builder->set("time.to", "time.to", kFixedEnd);
     }
+    if (has_plain_theme_) opening.builder->set("view.theme", "view.theme", kPlainTheme);
     Script script = opening.builder->build();
     if (const auto* const scene = std::get_if<Scene>(&script)) show_ = scene->show;
     opening.live = live_of(std::move(script));
@@ -172,6 +176,8 @@ class Opener {
         has_fixed_end_ = true;
         const LeftOut end{"time.to", {}, out->reason};
         if (!is_among(left_out_, end)) left_out_.push_back(end);
+      } else if (is_among(before, *out) && out->key == "view.theme" && !has_plain_theme_) {
+        has_plain_theme_ = true;
       } else if (is_among(before, *out)) {
         hopeless_.push_back(*out);
         std::erase_if(left_out_, [&](const LeftOut& one) { return is_among({*out}, one); });
@@ -195,6 +201,7 @@ class Opener {
   std::vector<LeftOut> left_out_;
   std::vector<LeftOut> hopeless_;
   bool has_fixed_end_ = false;
+  bool has_plain_theme_ = false;
   Show show_;  ///< of the last attempt
 };
 
@@ -220,12 +227,13 @@ LiveScript::Place read_place(const LiveScript& live, std::string_view text) {
 }
 
 bool can_be_left_out(const Problem& problem) {
-  constexpr std::array<std::string_view, 6> kOfTime = {
-      "time.from", "time.to", "time.slow-motion", "time.ease", "time.freeze", "time.duration"};
+  constexpr std::array<std::string_view, 7> kOthers = {
+      "time.from",   "time.to",       "time.slow-motion", "time.ease",
+      "time.freeze", "time.duration", "view.theme"};
   if (problem.is_unread) return false;
   const std::string& key = problem.key;
   return key == "show" || key.starts_with("show.") || key.starts_with("golden.") ||
-         std::ranges::count(kOfTime, key) > 0 || is_body_label(key);
+         std::ranges::count(kOthers, key) > 0 || is_body_label(key);
 }
 
 std::string reason_alone(const Problem& problem) {

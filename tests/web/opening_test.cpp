@@ -113,6 +113,17 @@ TEST(Open, LeavesOutWhatHasNoRoom) {
   EXPECT_EQ(opened.picture->list.height_px, 60);
 }
 
+/// A count of 38 digits has room in the theme of the article alone.
+TEST(Open, ACountThatIsTooLongTakesThePlainTheme) {
+  const std::string scene(find_shipped_scene("twenty-digits").text);
+  const OpenedScript opened = open(scene, "restitution=0");
+  EXPECT_EQ(scene_of(opened).view.theme, Theme::article);
+  ASSERT_EQ(opened.left_out.size(), 1u);
+  EXPECT_EQ(opened.left_out[0].key, "view.theme");
+  EXPECT_TRUE(
+      contains(refusal(scene, "restitution=0\nview.theme=chalkboard"), R"("key":"view.theme")"));
+}
+
 TEST(Open, RefusesTextsThatMeanNothing) {
   for (const char* const text :
        {"show.panels = [\"nonsense\"]\n", "show.panel = \"time\"\n", "time.freeze = \"soon\"\n"}) {
