@@ -74,7 +74,10 @@ class UsageError : public Error {
   }
   static std::string join(const std::vector<Problem>& problems) {
     std::string text;
-    for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + problem.line();
+    for (const Problem& problem : problems) {
+      if (!text.empty()) text += '\n';
+      text += problem.line();
+    }
     return text;
   }
 
