@@ -62,6 +62,7 @@ class UsageError : public Error {
 
   static std::vector<Problem> problems_of(std::vector<std::string> lines) {
     std::vector<Problem> problems;
+    problems.reserve(lines.size());
     for (std::string& line : lines) problems.push_back({.reason = std::move(line)});
     return problems;
   }
