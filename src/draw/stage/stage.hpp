@@ -89,7 +89,7 @@ Drawable velocity_arrows(const DrawingContext& context);
 /// How long these arrows are.
 class ArrowLengths {
  public:
-  ArrowLengths(const System& line, const Layout& layout);
+  ArrowLengths(const System& system, const Layout& layout);
 
   /// Negative to the left.
   double length_px(double velocity) const;
