@@ -39,7 +39,7 @@ void* checked(void* found) {
 
 void* avformat_function(const char* name) {
   // Loaded once, and kept: its functions are called until the program ends.
-  static void* const library = checked(::dlopen(PIBLOCKS_AVFORMAT_FILE, RTLD_NOW | RTLD_LOCAL));
+  void* const library = checked(::dlopen(PIBLOCKS_AVFORMAT_FILE, RTLD_NOW | RTLD_LOCAL));
   return checked(::dlsym(library, name));
 }
 

@@ -27,12 +27,12 @@ struct AvDeleter {
 };
 
 struct AvInputDeleter {
-  void operator()(AVFormatContext* input) const noexcept { avformat_close_input(&input); }
+  void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
 };
 
 /// Closes the file of a muxer, if it is still open, and frees the muxer.
 struct AvOutputDeleter {
-  void operator()(AVFormatContext* muxer) const noexcept {
+  void operator()(AVFormatContext* muxer) const {
     avio_closep(&muxer->pb);
     avformat_free_context(muxer);
   }

@@ -33,9 +33,9 @@ const std::uint8_t* display_matrix_of(const AVStream& stream) noexcept {
       parameters.coded_side_data, parameters.nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
   return data != nullptr ? data->data : nullptr;
 #else
-  static constinit const FoundFunction<avformat_function, decltype(av_stream_get_side_data)> kData(
-      "av_stream_get_side_data");
-  return kData(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  static constinit const FoundFunction<avformat_function, decltype(av_stream_get_side_data)>
+      side_data("av_stream_get_side_data");
+  return side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
 #endif
 }
 
