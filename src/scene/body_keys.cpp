@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -97,6 +98,33 @@ std::string text_of(const ExactVector& vector) {
   return fmt::format("[{}, {}]", vector[0].get_str(), vector[1].get_str());
 }
 
+/// The body that the table called `name` describes. @param left_out  keys that are not read
+ReadBody read_properties(const TomlTable& table, const std::string& name,
+                         const std::set<std::string>& left_out,
+                         const std::function<void(std::size_t line, Problem)>& add) {
+  ReadBody read;
+  for (const TomlEntry& entry : table.entries) {
+    const std::string full_key = fmt::format("{}.{}", name, entry.key);
+    if (left_out.contains(full_key)) continue;
+    if (entry.key.starts_with("position")) read.has_position = true;  // perhaps one with a problem
+    const auto* const key =
+        std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
+    if (key == kBodyKeys.end()) {
+      add(entry.line,
+          {full_key, fmt::format(": unknown key{}", did_you_mean(entry.key, names_of(kBodyKeys)))});
+    } else if (!entry.problem.empty()) {
+      add(entry.line, {full_key, ": " + entry.problem});
+    } else {
+      try {
+        key->set(read, entry.values);
+      } catch (const UsageError& error) {
+        add(entry.line, unread(full_key, entry.values, error));
+      }
+    }
+  }
+  return read;
+}
+
 }  // namespace
 
 BoxSide parse_box_side(const Values& values) {
@@ -164,26 +192,7 @@ void BodyDraft::read_body(std::size_t number, ProblemLines& problems) {
     problems.add(path_, line, std::move(problem));
   };
   const auto problem = [&](const std::string& text) { add(table.line, {name, text}); };
-  ReadBody read;
-  for (const TomlEntry& entry : table.entries) {
-    const std::string full_key = fmt::format("{}.{}", name, entry.key);
-    if (left_out_.contains(full_key)) continue;
-    if (entry.key.starts_with("position")) read.has_position = true;  // perhaps one with a problem
-    const auto* const key =
-        std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
-    if (key == kBodyKeys.end()) {
-      add(entry.line,
-          {full_key, fmt::format(": unknown key{}", did_you_mean(entry.key, names_of(kBodyKeys)))});
-    } else if (!entry.problem.empty()) {
-      add(entry.line, {full_key, ": " + entry.problem});
-    } else {
-      try {
-        key->set(read, entry.values);
-      } catch (const UsageError& error) {
-        add(entry.line, unread(full_key, entry.values, error));
-      }
-    }
-  }
+  ReadBody read = read_properties(table, name, left_out_, add);
   if (!read.has_position) add(table.line, {name + ".position", ": is missing"});
   if (read.is_block && read.is_disc) {
     problem(": has a width and a radius; blocks have widths, discs have radii");

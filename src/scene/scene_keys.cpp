@@ -320,13 +320,13 @@ std::string joined(const Values& values) {
                                       : fmt::format("[{}]", fmt::join(values, ", ")));
 }
 
-std::string exact_item(std::string_view name, const std::string& text) {
-  const auto* const key = std::ranges::find(kKeys, name, &SceneKey::name);
-  if (key == kKeys.end()) return text;
+std::string exact_item(std::string_view key, const std::string& text) {
+  const auto* const found = std::ranges::find(kKeys, key, &SceneKey::name);
+  if (found == kKeys.end()) return text;
   try {
     Scene scene;
-    key->set(scene, {text});
-    const Values values = key->get(scene);
+    found->set(scene, {text});
+    const Values values = found->get(scene);
     return values.size() == 1 ? values.front() : text;
   } catch (const UsageError&) {
     return text;

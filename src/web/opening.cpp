@@ -238,9 +238,9 @@ bool can_be_left_out(const Problem& problem) {
 
 std::string reason_alone(const Problem& problem) {
   std::string_view reason = problem.reason;
-  const std::string beginnings[] = {": ", fmt::format("has '{}', which ", problem.item),
-                                    fmt::format("the diagram '{}' ", problem.item),
-                                    fmt::format("'{}' ", problem.item)};
+  const std::array<std::string, 4> beginnings = {
+      ": ", fmt::format("has '{}', which ", problem.item),
+      fmt::format("the diagram '{}' ", problem.item), fmt::format("'{}' ", problem.item)};
   for (const std::string& beginning : beginnings) {
     if (reason.starts_with(beginning)) reason.remove_prefix(beginning.size());
   }
