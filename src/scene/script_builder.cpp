@@ -215,12 +215,10 @@ bool ScriptBuilder::Impl::leave_out(TomlEntry& entry) const {
 /// Takes items out of the texts of a list. @returns whether nothing is left of it.
 bool ScriptBuilder::Impl::leave_out_items(const std::string& key, Values& values) const {
   bool is_changed = false;
-  for (const auto& left_out : left_out_items) {
-    if (left_out.first != key) continue;
+  for (const auto& one : left_out_items) {
+    if (one.first != key) continue;
     values = list_of(values);
-    const auto is_it = [&](const std::string& text) {
-      return exact_item(key, text) == left_out.second;
-    };
+    const auto is_it = [&](const std::string& text) { return exact_item(key, text) == one.second; };
     is_changed |= std::erase_if(values, is_it) > 0;
   }
   if (!is_changed || !values.empty()) return false;

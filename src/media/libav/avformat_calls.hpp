@@ -50,6 +50,7 @@ PIBLOCKS_FOUND(avio_size)
 // NOLINTEND(cppcoreguidelines-macro-usage)
 
 /// In place of libavformat's inline function, which would link avio_seek().
+// NOLINTNEXTLINE(readability-identifier-naming): the name of the function
 inline constinit const auto avio_tell = [](AVIOContext* file) {
   return avio_seek(file, 0, SEEK_CUR);
 };
