@@ -140,7 +140,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Planes source = callers.planes();
     const PictureType type = chance == 1 && frame > 0 ? PictureType::idr : PictureType::p;
     const std::vector<Rect> changed = rects_of(pictures.changed(), config, numbers);
-    const CodedPicture coded = encode(encoder, source, changed, type, unit);
+    const CodedPicture coded = encode(encoder, source, frame == 0 ? all : changed, type, unit);
     last = coded.type;
     stream->take(source, coded, unit);
     encode(*other, source, all, type, other_unit);
