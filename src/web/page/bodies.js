@@ -20,6 +20,7 @@ function columnsOf(dimensions) {
 export class Bodies {
   #session;
   #facts = null;
+  #room = null;
   #cells = [];
   #table = element("table");
   #problem = element("p", {className: "problem", id: "bodies-problem", hidden: true, role: "alert"});
@@ -39,18 +40,23 @@ export class Bodies {
       this.#cells = [];
       return;
     }
-    const {count, rows, room} = facts.bodies;
+    const {count, rows} = facts.bodies;
     const isListed = count === rows.length;
     this.#hint.hidden = isListed;
     this.#hint.textContent = `${count} bodies: too many for a table. The scene file has them.`;
     this.#table.hidden = !isListed;
     this.#add.hidden = !isListed;
-    this.#add.disabled = !room;
-    this.#add.title = room ? "" : "There is no room for another one.";
     // What is being typed, or was refused, stays as it is.
     const isWaiting = this.#session.refusedKeys.some(key => key.startsWith("body "));
     if (this.#cells.length === rows.length && (isWaiting || this.#table.contains(document.activeElement))) return;
     this.#draw(facts.bodies);
+  }
+
+  /** @param room  a row for one more body, where it has the most room; null if there is none */
+  setRoom(room) {
+    this.#room = room;
+    this.#add.disabled = !room;
+    this.#add.title = room ? "" : "There is no room for another one.";
   }
 
   #draw({dimensions, rows}) {
@@ -71,12 +77,14 @@ export class Bodies {
       "aria-label": `Body ${number}, ${name}`, "aria-describedby": "bodies-problem"});
     input.dataset.property = property;
     input.addEventListener("input", () => {
-      const of = this.#cells[number - 1].filter(cell => cell.dataset.property === property);
-      const words = of.map(cell => cell.value.replace(/[\t\n\r]+/g, " ")).join("\t");
+      const cells = this.#cells[number - 1].filter(cell => cell.dataset.property === property);
+      const words = cells.map(cell => cell.value.replace(/[\t\n\r]+/g, " ")).join("\t");
       this.#session.edit(`body ${number}.${this.#keyOf(property)}`, words, true);
     });
     input.addEventListener("keydown", event => {
-      if (event.key === "Escape") this.#session.forget(`body ${number}.${this.#keyOf(property)}`);
+      if (event.key !== "Escape") return;
+      input.blur();
+      this.#session.forget(`body ${number}.${this.#keyOf(property)}`);
     });
     input.addEventListener("blur", () => {
       setTimeout(() => this.#facts && this.update({bodies: this.#facts}), 300);
@@ -98,21 +106,23 @@ export class Bodies {
 
   /** Where there is the most room. */
   #addRow() {
-    const {count, room} = this.#facts;
+    const {count} = this.#facts;
+    const room = this.#room;
     for (const property of ["position", "velocity", "size", "mass"]) {
       this.#session.edit(`body ${count + 1}.${this.#keyOf(property)}`, [room[property]].flat().join("\t"));
     }
   }
 
   /** Says what is wrong with the cells. @returns the keys for which there is a cell */
-  say(session) {
-    const known = this.#facts && !this.#table.hidden ? session.refusedKeys.filter(key => key.startsWith("body ")) : [];
-    sayIn(this.#problem, known.flatMap(key => session.problemsOf(key).map(problem => wordsOf(problem))).join("\n"));
+  say() {
+    const session = this.#session;
+    const wrong = this.#facts && !this.#table.hidden ? session.refusedKeys.filter(key => key.startsWith("body ")) : [];
+    sayIn(this.#problem, wrong.flatMap(key => session.problemsOf(key).map(problem => wordsOf(problem))).join("\n"));
     this.#cells.forEach((cells, i) => cells.forEach(cell => {
-      const isWrong = known.includes(`body ${i + 1}.${this.#keyOf(cell.dataset.property)}`);
+      const isWrong = wrong.includes(`body ${i + 1}.${this.#keyOf(cell.dataset.property)}`);
       cell.setAttribute("aria-invalid", String(isWrong));
     }));
-    if (known.length === 0 && this.#facts) this.update({bodies: this.#facts});
-    return known;
+    if (wrong.length === 0 && this.#facts) this.update({bodies: this.#facts});
+    return wrong;
   }
 }

@@ -82,8 +82,6 @@ class Field {
 
   /** Inputs that a problem makes invalid. */
   inputs = [];
-  /** Whether an edit of this field is the last one of its key that the program has not taken. */
-  hasEdited = false;
 
   makeInput(properties) {
     const made = element("input", {"aria-describedby": this.problem.id, ...properties});
@@ -161,7 +159,7 @@ class Field {
     const [min, max, step] = this.spec.slider;
     const [low, high] = facts.ranges?.[this.spec.key] ?? [min, max];
     this.ends = [Math.max(min, low), Math.min(max, high)];
-    if (document.activeElement === this.slider && this.slider.matches(":active")) return;
+    if (this.slider.matches(":active")) return;
     // Steps are counted from the minimum.
     this.slider.min = Math.floor(this.ends[0] / step + 1e-9) * step;
     this.slider.max = Math.ceil(this.ends[1] / step - 1e-9) * step;
@@ -197,13 +195,14 @@ class Field {
       });
       return box;
     });
+    this.reasons = element("p", {className: "hint", hidden: true});
     this.showValue = facts => {
       chosen = facts.keys[this.spec.key].filter(name => this.choices.includes(name));
       for (const box of this.boxes) box.checked = chosen.includes(box.value);
     };
     return element("fieldset", {className: "field list"}, element("legend", {}, this.spec.label),
       element("span", {className: "names"},
-        ...this.boxes.map(box => element("label", {}, box, box.value))), this.note, this.problem);
+        ...this.boxes.map(box => element("label", {}, box, box.value))), this.reasons, this.note, this.problem);
   }
 
   /** @param reasons  by name, why it cannot be added */
@@ -215,7 +214,7 @@ class Field {
       box.parentElement.title = reason ?? "";
       if (reason) byReason.set(reason, [...(byReason.get(reason) ?? []), box.value]);
     }
-    sayIn(this.note, [...byReason].map(([reason, names]) => `${names.join(", ")}: ${reason}.`).join("\n"));
+    sayIn(this.reasons, [...byReason].map(([reason, names]) => `${names.join(", ")}: ${reason}.`).join("\n"));
   }
 
   makeRange() {
@@ -243,11 +242,9 @@ class Field {
     this.edited(text, true);
   }
   edited(text, isTyped = false) {
-    this.hasEdited = true;
     // Tabs separate the values of a list, line breaks the keys.
     const value = this.spec.kind === "range" ? text : text.replace(/[\t\n\r]+/g, " ");
     const {key, empty} = this.spec;
-    if (!this.boxes) sayIn(this.note, "");
     this.session.edit(key, value === "" && empty !== undefined ? empty : value, isTyped);
   }
 
@@ -271,21 +268,18 @@ class Field {
     if (!this.session.isWaiting(key)) this.showValue(this.facts);
   }
 
-  say(problems) {
-    const words = problems.map(problem => wordsOf(problem, this.spec.key)).join("\n");
+  /** @returns whether something is wrong with what was typed */
+  say() {
     const {key, kind} = this.spec;
-    if (words && !this.session.isTyped(key)) {
-      if (this.hasEdited) {
-        sayIn(this.note, words);
-        this.session.forget(key);
-      }
-      this.hasEdited = false;
-      return;
-    }
-    this.hasEdited &&= this.session.isWaiting(key);
-    sayIn(this.problem, kind === "slider" ? "" : words);
-    for (const input of this.inputs) input.setAttribute("aria-invalid", String(words !== ""));
+    const say = (target, problems) =>
+      sayIn(target, problems.map(problem => wordsOf(problem, key)).join("\n"));
+    const problems = this.root.hidden ? [] : this.session.problemsOf(key);
+    // A slider alone cannot be wrong; the field for exact values says it.
+    say(this.problem, kind === "slider" ? [] : problems);
+    say(this.note, this.session.reasonsAgainst(key));
+    for (const input of this.inputs) input.setAttribute("aria-invalid", String(problems.length > 0));
     this.refresh();
+    return problems.length > 0;
   }
 }
 
@@ -327,17 +321,13 @@ export class Fields {
   }
 
   /** Says beside each field what is wrong with it. @returns the keys for which there is a field */
-  say(session) {
-    const known = [];
-    for (const field of this.#fields) {
-      const problems = field.root.hidden ? [] : session.problemsOf(field.spec.key);
-      field.say(problems);
-      if (problems.length === 0) continue;
-      known.push(field.spec.key);
+  say() {
+    const wrong = this.#fields.filter(field => field.say());
+    for (const field of wrong) {
       for (let group = field.root.closest("details"); group; group = group.parentElement.closest("details")) {
         group.open = true;
       }
     }
-    return known;
+    return wrong.map(field => field.spec.key);
   }
 }

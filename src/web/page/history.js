@@ -3,62 +3,59 @@
 
 /** Changes of one key that follow each other so soon are one step: a slider that is dragged. */
 const ONE_STEP_ms = 1000;
+/** Steps of an earlier load of the page are only addresses. */
+const LOAD = Math.random();
+/** A page inside another one leaves that one's Back alone. */
+const isEmbedded = new URLSearchParams(location.search).get("embed") === "1";
+
+const isOwnStep = () => history.state?.load === LOAD;
 
 export class Steps {
   #session;
   /** Snapshots of the session, by their numbers, which are in history.state. */
   #snapshots = [];
   #now = -1;
-  #last = {words: "", time: 0};
+  #last = {target: "", time: 0};
   /** Something has been taken back, or done again. */
   onRestored = () => {};
+  /** Somebody has gone to another address of the page. */
+  onAddress = () => {};
 
   constructor(session) {
     this.#session = session;
-    addEventListener("popstate", event => {
-      const snapshot = this.#snapshots[event.state?.step];
-      if (!snapshot) return;
-      this.#now = event.state.step;
+    addEventListener("popstate", () => {
+      const snapshot = isOwnStep() ? this.#snapshots[history.state.step] : null;
+      if (!snapshot) {
+        this.onAddress();
+        return;
+      }
+      this.#now = history.state.step;
+      this.#last = {target: "", time: 0};
       session.restore(snapshot);
       this.onRestored();
     });
   }
 
   get canUndo() {
-    return this.#now > 0;
+    return this.#now > 0 && !isEmbedded;
   }
   undo() {
     if (this.canUndo) history.back();
   }
-  /** To the newest step with this property. @returns whether there is one */
-  backTo(isIt) {
-    const step = this.#snapshots.slice(0, this.#now).map(isIt).lastIndexOf(true);
-    if (step >= 0) history.go(step - this.#now);
-    return step >= 0;
-  }
-  has(isIt) {
-    return this.#snapshots.slice(0, Math.max(0, this.#now)).some(isIt);
-  }
 
-  /** The program has accepted a scene. @param leftOut  what it could not show */
-  note(leftOut) {
-    const snapshot = {...this.#session.snapshot, leftOut};
+  /** The program has accepted a scene. */
+  add() {
+    const {snapshot} = this.#session;
     const before = this.#snapshots[this.#now];
-    const isSame = before && before.text === snapshot.text &&
-      JSON.stringify(before.edits) === JSON.stringify(snapshot.edits);
-    if (isSame) {
-      this.#snapshots[this.#now] = snapshot;
-      return;
-    }
-    const words = `${snapshot.text}\n${snapshot.edits.at(-1)?.[0] ?? ""}`;
-    const isSoon = snapshot.edits.length > 0 && words === this.#last.words &&
+    if (before && before.text === snapshot.text && JSON.stringify(before.edits) === JSON.stringify(snapshot.edits)) return;
+    const target = `${snapshot.text}\n${snapshot.edits.at(-1)?.[0] ?? ""}`;
+    const isSoon = snapshot.edits.length > 0 && target === this.#last.target &&
       performance.now() - this.#last.time < ONE_STEP_ms;
-    this.#last = {words, time: performance.now()};
-    if (!isSoon) {
-      this.#snapshots.length = ++this.#now;
-    }
+    this.#last = {target, time: performance.now()};
+    if (!isSoon) this.#snapshots.length = ++this.#now;
     this.#snapshots[this.#now] = snapshot;
-    this.#change(isSoon || this.#now === 0 ? "replaceState" : "pushState", location.href);
+    // An address that somebody went to has made an entry already.
+    if (!isSoon) this.#change(isOwnStep() && !isEmbedded ? "pushState" : "replaceState", location.href);
   }
 
   /** The place that is shown belongs to the step, and so does the address. */
@@ -71,7 +68,7 @@ export class Steps {
 
   #change(method, address) {
     try {
-      history[method]({step: this.#now}, "", address);
+      history[method]({load: LOAD, step: this.#now}, "", address);
     } catch {
       // Some browsers and frames let pages change no address, or not so long ones, or not so often.
     }

@@ -18,6 +18,9 @@ function isTakenBy(target, key) {
   return target.matches("input[type=checkbox]") && key === " ";
 }
 
+/** Those of clickers go through the page unless the picture fills the screen. */
+const isOfLecture = key => key === "b" || key.startsWith("Page");
+
 /** @param undo  takes back the last change */
 export function listenToKeys(undo) {
   const letters = byId("letters");
@@ -29,6 +32,7 @@ export function listenToKeys(undo) {
       undo();
     }
     if (event.ctrlKey || event.altKey || event.metaKey) return;
+    if (isOfLecture(event.key) && !document.body.classList.contains("lecture")) return;
     const isLetter = /^[a-z,.]$/.test(event.key);
     const button = byId(BUTTONS[event.key]);
     if (!button || isLetter && !letters.checked || isTakenBy(targetOf(event), event.key)) return;

@@ -5,7 +5,7 @@
 import {byId} from "./dom.js";
 
 const BAR_ms = 2000;
-/** More pixels would not be drawn 60 times a second; in fewer there is no room for text. */
+/** More pixels than most projectors have; in fewer than the least there is no room for text. */
 const MOST_PIXELS = 3840 * 2160;
 const LEAST_SIDE_px = 1280;
 const even = length => 2 * Math.round(length / 2);
@@ -30,7 +30,7 @@ export class Lecture {
     document.addEventListener("fullscreenchange", () => {
       if (!document.fullscreenElement && this.#isOn) this.#leave();
     });
-    for (const kind of ["pointermove", "pointerdown", "keydown", "focusin"]) {
+    for (const kind of ["pointermove", "pointerdown", "focusin"]) {
       document.addEventListener(kind, () => this.#isOn && this.#showBar());
     }
     document.addEventListener("keydown", event => {
@@ -61,7 +61,11 @@ export class Lecture {
     document.body.classList.add("lecture");
     byId("full-screen").setAttribute("aria-pressed", "true");
     this.#screen.append(byId("row"));
+    // A clicker's keys are not those of a field.
+    byId("settings").inert = true;
+    byId("full-screen").focus();
     await document.documentElement.requestFullscreen?.().catch(() => {});
+    if (!this.#isOn) document.exitFullscreen?.().catch(() => {});
     this.update();
     this.#showBar();
   }
@@ -71,6 +75,7 @@ export class Lecture {
     clearTimeout(this.#timer);
     document.body.classList.remove("lecture", "idle");
     this.#screen.classList.remove("blank");
+    byId("settings").inert = false;
     byId("full-screen").setAttribute("aria-pressed", "false");
     byId("controls").prepend(byId("row"));
     if (document.fullscreenElement) document.exitFullscreen();

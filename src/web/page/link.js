@@ -39,7 +39,7 @@ export function placeAddress({instant, frame}, shown, rate) {
   if (instant !== undefined) return `@${encodeURIComponent(instant)}`;
   if (frame === 0 || shown === null) return "";
   const time = shown.state === null ? frame * rate[1] / rate[0] : JSON.parse(shown.state).time;
-  return `@${Number(Number(time).toFixed(4))}`;
+  return `@${time}`;
 }
 
 /** @returns text and place of the address; null if it has none. @throws Error if it cannot be read. */

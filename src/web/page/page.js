@@ -2,7 +2,7 @@
 // tells what the program makes of them, and the parts show that.
 
 import {Bodies} from "./bodies.js";
-import {byId, element, sayIn, targetOf} from "./dom.js";
+import {approximate, byId, element, sayIn, targetOf} from "./dom.js";
 import {Fields} from "./fields.js";
 import {Steps} from "./history.js";
 import {listenToKeys} from "./keys.js";
@@ -13,7 +13,7 @@ import {wordsOf} from "./program.js";
 import {Readouts, wordsOfPicture} from "./readouts.js";
 import {Saving} from "./saving.js";
 import {Session, TEXT} from "./session.js";
-import {copy, Sharing} from "./sharing.js";
+import {copy, offerSharing} from "./sharing.js";
 import {Stage} from "./stage.js";
 
 /** What is shown if nothing else can be. */
@@ -23,17 +23,18 @@ if (options.get("embed") === "1") document.body.classList.add("embedded");
 if (options.get("controls") === "0") document.body.classList.add("bare");
 
 const session = new Session();
-const {scenes, ...lists} = await session.started.catch(error => {
+const {scenes, alike = [], ...lists} = await session.started.catch(error => {
   sayIn(byId("problem"), `This browser cannot run the program: ${error.message}`);
   throw error;
 });
+session.alike = alike;
 const player = new Player(session);
 const stage = new Stage(session, player);
 const steps = new Steps(session);
 const fields = new Fields(session, lists);
 const bodies = new Bodies(session);
 const readouts = new Readouts();
-const sharing = new Sharing();
+offerSharing(() => addressNow(), () => session.text);
 const saving = new Saving(session, () => player.pause());
 new Lecture(session);
 listenToKeys(() => steps.undo());
@@ -51,7 +52,11 @@ let shown = null;
 /** The part of the address that names the scene; made once for each scene. */
 let address = "";
 let leftOut = [];
-let hasStepped = false;
+/** The key that was edited last before something was left out, and its edits until then. */
+let cause = null;
+/** What the program had accepted before. */
+let before = {text: "", edits: []};
+let announcesNext = false;
 /** The place of the first scene, until it is shown. */
 let firstPlace = null;
 
@@ -93,39 +98,49 @@ session.onShown = now => {
 function describePicture() {
   const words = wordsOfPicture(shown, session.facts);
   byId("picture").setAttribute("aria-label", words);
-  if (hasStepped) byId("announcement").textContent = words;
-  hasStepped = false;
+  if (announcesNext) byId("announcement").textContent = words;
+  announcesNext = false;
 }
 player.onPause = describePicture;
-player.onStep = () => hasStepped = true;
+player.onStep = () => {
+  announcesNext = true;
+  invitation.hidden = true;
+};
 
 /** Once nothing has changed for a while: browsers allow few changes of the address a second. */
 function updateAddress() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(() => {
-    if (!address || player.isPlaying) return;
-    const whole = address + placeAddress(session.snapshot.place, shown, session.facts.rate);
-    sharing.update(whole, session.text);
-    steps.update(whole);
+    if (address && !player.isPlaying) steps.update(addressNow());
   }, 250);
 }
 
+const addressNow = () => address + placeAddress(session.snapshot.place, shown, session.facts.rate);
+
 async function updateScene() {
-  const made = await sceneAddress(session.text, shippedScene()?.name);
+  const {text} = session;
+  const made = await sceneAddress(text, shippedScene()?.name);
+  if (text !== session.text) return;
   address = made;
   updateAddress();
 }
 
 session.onOpened = (facts, left) => {
+  const {text: words, edits} = session.snapshot;
+  const key = words === before.text ? edits.at(-1)?.[0] : undefined;
+  if (left.length === 0) cause = null;
+  else if (left.length > leftOut.length) cause = key && {key, edits: before.edits.filter(([one]) => one === key)};
   leftOut = left;
+  before = session.snapshot;
   const name = shippedScene()?.name;
   byId("scenes").value = name ?? "";
   saving.name = name ?? "scene";
-  steps.note(left);
+  steps.add();
   byId("undo").disabled = !steps.canUndo;
   showText();
   fields.update(facts);
   bodies.update(facts);
+  bodies.setRoom(null);  // until the program says where it is
   player.update(facts);
   byId("of-storyboard").hidden = facts.kind === "scene";
   const notes = [facts.filmProblem && `No film: ${facts.filmProblem}`, ...(facts.notes ?? [])];
@@ -148,10 +163,9 @@ async function updateChoices() {
   const choices = await session.choices().catch(() => ({}));
   if (facts !== session.facts) return;
   fields.disable(choices);
+  bodies.setRoom(choices.room ?? session.facts.bodies?.room);
   document.body.dataset.hasChoices = "true";
 }
-
-const isWhole = snapshot => snapshot.leftOut.length === 0;
 
 /** What the picture had to do without. */
 function sayLeftOut() {
@@ -162,12 +176,16 @@ function sayLeftOut() {
   const words = [...byReason].map(([reason, names]) => `${names.join(", ")} (${reason})`);
   byId("left-out").hidden = leftOut.length === 0;
   byId("left-out").firstElementChild.textContent = `Left out: ${words.join("; ")}.`;
-  byId("bring-back").hidden = !steps.has(isWhole);
+  byId("bring-back").hidden = !cause;
 }
-byId("bring-back").addEventListener("click", () => steps.backTo(isWhole));
+/** Takes back the edits of the key because of which it was left out. */
+byId("bring-back").addEventListener("click", () => {
+  const {edits, ...others} = session.snapshot;
+  session.restore({...others, edits: [...edits.filter(([key]) => key !== cause.key), ...cause.edits]});
+});
 
 session.onRefused = () => {
-  const known = [...fields.say(session), ...bodies.say(session)];
+  const keysWithField = [...fields.say(), ...bodies.say()];
   const ofText = session.problemsOf(TEXT);
   const lines = ofText.map(problem => {
     const line = problem.origin.match(/:(\d+)$/)?.[1];
@@ -176,7 +194,7 @@ session.onRefused = () => {
   sayIn(byId("text-problem"), lines.join("\n"));
   text.setAttribute("aria-invalid", String(ofText.length > 0));
   if (ofText.length > 0) byId("more").open = byId("text-group").open = true;
-  const others = session.refusedKeys.filter(key => key !== TEXT && !known.includes(key))
+  const others = session.refusedKeys.filter(key => key !== TEXT && !keysWithField.includes(key))
     .flatMap(key => session.problemsOf(key).map(problem => wordsOf(problem)));
   sayIn(byId("problem"), [linkProblem, ...others].filter(words => words).join("\n"));
   // If the scene of a link is wrong, the first scene is shown.
@@ -186,6 +204,7 @@ session.onRefused = () => {
 session.onPlaceProblem = words => {
   sayIn(byId("instant-problem"), words);
   byId("instant").setAttribute("aria-invalid", String(words !== ""));
+  if (words) byId("more").open = true;
 };
 
 session.onBusy = isBusy => {
@@ -205,7 +224,14 @@ byId("scenes").append(element("option", {value: "", hidden: true}, "my own"),
   ...scenes.map(({name, summary}) => element("option", {value: name}, `${name}: ${summary}`)));
 byId("scenes").addEventListener("change", () => openShipped(byId("scenes").value));
 byId("undo").addEventListener("click", () => steps.undo());
-steps.onRestored = () => player.pause();
+steps.onRestored = () => {
+  player.pause();
+  linkProblem = "";
+};
+steps.onAddress = async () => {
+  const wanted = await wantedByAddress();
+  if (wanted) open(wanted.text, wanted.place);
+};
 
 text.addEventListener("input", () => {
   clearTimeout(textTimer);
@@ -231,11 +257,12 @@ player.onPlay = () => invitation.hidden = true;
 /** Plays once by itself, unless the reader wants no motion or a place was asked for. */
 function invite(place) {
   const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  if (place.frame !== 0) return;
+  if (place.frame !== 0 || player.frames === 0) return;
   invitation.hidden = false;
   if (isStill || options.get("autoplay") === "0") return;
-  // Nobody has to wait for what a lecturer has time to say.
-  player.play({isSilent: true, from: Number(session.facts.keys["time.hold-start"]?.[0] ?? 0)});
+  // Skips the hold at the start, which is for lecturers. A page that nobody sees waits.
+  const from = approximate(session.facts.keys["time.hold-start"]?.[0] ?? "0");
+  requestAnimationFrame(() => player.play({isSilent: true, from}));
 }
 
 /** @returns text and place of the address; null if it has no scene. */
@@ -248,12 +275,6 @@ async function wantedByAddress() {
     return null;
   }
 }
-addEventListener("hashchange", async () => {
-  if (history.state?.step !== undefined) return;  // a step back
-  const wanted = await wantedByAddress();
-  if (wanted) open(wanted.text, wanted.place);
-});
-
 const given = JSON.parse(byId("opened-scene").textContent);
 const first = await wantedByAddress() ?? {text: given?.text ?? shippedText(FIRST_SCENE), place: {frame: 0}};
 const problem = linkProblem;

@@ -33,7 +33,7 @@ export class Player {
     this.slider = byId("time-slider");
     this.slider.addEventListener("input", () => this.goTo(Number(this.slider.value)));
     const actions = {play: () => this.toggle(), "play-first": () => this.play(), start: () => this.goTo(0),
-      end: () => this.goTo(this.frames - 1), turn: () => this.show({instant: "turn"}), "turn-too": () => this.show({instant: "turn"}),
+      end: () => this.goTo(this.frames - 1), turn: () => this.show({instant: "turn"}), "turn-in-more": () => this.show({instant: "turn"}),
       "previous-frame": () => this.#stepFrames(-1), "next-frame": () => this.#stepFrames(1),
       "previous-collision": () => this.step(-1), "next-collision": () => this.step(1),
       sound: () => this.#toggleSound(), go: () => this.#goToInstant()};
@@ -86,7 +86,7 @@ export class Player {
     this.slider.disabled = !hasFilm;
     for (const name of ["play", "start", "end", "previous-frame", "next-frame"]) byId(name).disabled = !hasFilm;
     for (const name of ["previous-collision", "next-collision"]) byId(name).disabled = facts.kind !== "scene";
-    byId("turn").disabled = byId("turn-too").disabled = !facts.hasTurn;
+    byId("turn").disabled = byId("turn-in-more").disabled = !facts.hasTurn;
     if (this.#isPlaying && hasFilm) this.#goOnInAnotherFilm();
     else if (this.#isPlaying) this.pause();
   }

@@ -17,7 +17,7 @@ export const STOPPED = "stopped";
 
 /** A problem as a sentence. @param own  the key of the field beside which it stands, if there is one */
 export const wordsOf = ({key, reason}, own = "") =>
-  !key || key === own ? reason.replace(/^= [^:]*: /, "") : `${key} ${reason}`;
+  !key || key === own ? reason.replace(/^= \S*?: (?=\S)/, "") : `${key} ${reason}`;
 
 async function compiledProgram() {
   const packed = Uint8Array.from(atob(byId("program").textContent), c => c.charCodeAt(0));

@@ -2,10 +2,11 @@
 // In: wishes: a text, edits of keys, a place in the film, a size. Out: calls of `on…`: what the program
 // makes of them.
 //
-// There is one wish and one state that the program has accepted. A wish that is newer than the state is
-// sent to the program as a whole; edits that it refuses wait in the wish, with what is wrong.
+// There is one state, which the program has accepted, and what is wanted beyond it: another text, newer
+// edits. Both go to the program as a whole. Edits that were typed and refused stay wanted, with what is
+// wrong; others are dropped.
 
-import {Failure, Program, Refusal, STOPPED, wordsOf} from "./program.js";
+import {Failure, Program, Refusal, STOPPED} from "./program.js";
 
 /** A newer wish ends work that has lasted longer than this; longer each time, until work is done. */
 const PATIENCE_ms = 1500;
@@ -13,15 +14,13 @@ const TOO_LONG = {origin: "", key: "", reason: "Not applied: it took too long, a
 /** The problems of the text are under this name, those of an edit under its key. */
 export const TEXT = "text";
 
-/** Keys that set the same value: an edit of one replaces those of the others. */
-const KEYS_OF_ONE_VALUE = [["digits", "mass-ratio", "red.mass"], ["time.speed", "time.duration"],
-  ["restitution", "blocks.restitution"], ["restitution", "wall.restitution"]];
-const isAlike = (one, other) =>
-  one === other || KEYS_OF_ONE_VALUE.some(keys => keys.includes(one) && keys.includes(other));
-
 /** The lines that the program reads: a value, or null for the key's default. */
 const linesOf = edits => edits.map(([key, value]) => value === null ? key : `${key}=${value}`).join("\n");
-const isOfBodies = ([key]) => key.startsWith("body ");
+
+/** The number in "body 2" or "body 2.mass". */
+const numberOf = key => Number(key.match(/^body (\d+)/)?.[1]);
+
+const nothing = () => ({text: null, edits: []});
 
 /** A place in the film: a frame, an instant such as "turn", or a number of collisions from here.
  * @typedef {{frame?: number, instant?: string, step?: number}} Place */
@@ -35,31 +34,35 @@ export class Session {
   onRefused = () => {};
   onPlaceProblem = words => {};
   onBusy = isBusy => {};
+  /** Lists of keys that set one value, from the program. */
+  alike = [];
 
   #program = new Program();
   /** What the program has accepted: `edits` are [key, value] in the order in which they were made. */
   #state = {text: "", edits: []};
   /** @type {Place} */
   #place = {frame: 0};
-  #wish = {text: "", edits: []};
+  /** What is wanted beyond the state: edits of it or, if there is a text, of that. */
+  #wanted = nothing();
   /** @type {Place | null} */
   #wantedPlace = null;
   #screen = "";
+  #leftOut = [];
   #isNewer = false;
   #isWorking = false;
-  /** {key or TEXT: problems}; an edit in it is in the wish, and not in the state. */
+  #work = Promise.resolve();
+  /** What is wrong with edits that are still wanted, and what was with those that were dropped. */
   #refused = new Map();
-  #saidOfText = [];
-  #leftOut = [];
+  #dropped = new Map();
+  #problemsOfText = [];
   #typed = new Set();
-  /** What the program tries: the edits that it has not accepted yet, and the text if it is another one. */
-  #tried = {edits: [], text: null};
+  /** What the program tries. */
+  #tried = nothing();
   /** Whether the program has the scene; false after a restart. */
   #hasScene = false;
   /** When the program began its task; null while it has none. */
   #since = null;
   #patience_ms = PATIENCE_ms;
-  #saves = 0;
 
   get started() {
     return this.#program.started;
@@ -79,14 +82,15 @@ export class Session {
   get snapshot() {
     return {...this.#state, place: this.#place};
   }
-  isTyped(key) {
-    return this.#typed.has(key);
-  }
-  problemsOf(name) {
-    return this.#refused.get(name) ?? (name === TEXT ? this.#saidOfText : []);
-  }
   get refusedKeys() {
     return [...this.#refused.keys()];
+  }
+  problemsOf(name) {
+    return name === TEXT ? this.#problemsOfText : this.#refused.get(name) ?? [];
+  }
+  /** Why the last edit of this key was dropped. */
+  reasonsAgainst(key) {
+    return this.#dropped.get(key) ?? [];
   }
 
   /** Shows another scene. @param place  in its film, as that of worker.js; or where it is now */
@@ -96,59 +100,58 @@ export class Session {
 
   /** The same, while what is wrong with the text that was wanted stays said. */
   openInstead(text) {
-    const problems = this.problemsOf(TEXT);
+    const problems = this.#problemsOfText;
     this.open(text, {frame: 0});
-    this.#saidOfText = problems;
+    this.#problemsOfText = problems;
   }
 
   restore({text, edits, place}) {
-    this.#refused.clear();
-    this.#saidOfText = [];
+    this.#forgetWishes();
+    this.#problemsOfText = [];
     this.#want({text, edits}, place);
   }
 
   /** @param value  null for the default
-   * @param isTyped  only what is typed can be wrong; the field takes anything else back */
+   * @param isTyped  only what is typed can be wrong; anything else is dropped if the program refuses it */
   edit(key, value, isTyped = false) {
     if (isTyped) this.#typed.add(key);
     else this.#typed.delete(key);
-    const others = this.#wish.edits.filter(([other]) => !isAlike(key, other));
     for (const other of this.refusedKeys) {
-      if (isAlike(key, other)) this.#refused.delete(other);
+      if (this.#replaces(key, other)) this.#refused.delete(other);
     }
-    this.#want({text: this.#wish.text, edits: [...others, [key, value]]});
+    this.#want({...this.#wanted, edits: this.#with(this.#wanted.edits, [[key, value]])});
   }
 
   /** Drops an edit that was refused. */
   forget(key) {
     if (!this.#refused.delete(key)) return;
-    this.#want({text: this.#wish.text, edits: this.#wish.edits.filter(([other]) => other !== key)});
+    this.#want({...this.#wanted, edits: this.#wanted.edits.filter(([other]) => other !== key)});
   }
 
   /** Whether there is a newer value of this key than that of the facts. */
   isWaiting(key) {
-    const same = ([other]) => other === key;
-    return this.#isNewer && this.#wish.edits.find(same) !== this.#state.edits.find(same);
+    return this.#isNewer && this.#wanted.edits.some(([other]) => other === key);
   }
   get isTextWaiting() {
-    return this.#isNewer && this.#wish.text !== this.#state.text;
+    return this.#wanted.text !== null;
   }
 
   /** @param place  as that of worker.js, or {step: 1}: the next collision, {step: -1}: the one before */
   show(place) {
     this.#wantedPlace = place;
-    this.#work();
+    this.#begin();
   }
 
   /** Lays the picture out in this size, "1080x1350", or in the scene's own if it is empty. */
   setScreen(screen) {
     if (screen === this.#screen) return;
     this.#screen = screen;
-    if (this.facts) this.#want(this.#wish);
+    if (this.facts) this.#want(this.#wanted);
   }
 
   /** What cannot be added to the picture, and why. */
   async choices() {
+    await this.#work;
     await this.#haveScene();
     return this.#program.call("choices");
   }
@@ -160,37 +163,49 @@ export class Session {
 
   /** A file of what is shown. */
   async save(name) {
-    ++this.#saves;
-    try {
-      this.#replaceIfBroken();
-      await this.#haveScene();
-      return await this.#program.call("save", {name});
-    } finally {
-      --this.#saves;
-    }
+    await this.#work;
+    this.#replaceIfBroken();
+    await this.#haveScene();
+    return this.#program.call("save", {name});
   }
 
   /** Ends what the program does, and goes on with the scene that it has accepted. */
   stop() {
     this.#forgetWishes();
-    this.#tried = {edits: [], text: null};
+    this.#tried = nothing();
     this.#replaceProgram();
-    this.onRefused();
-    if (this.facts) this.onOpened(this.facts, this.#leftOut);
+    this.#tellAgain();
   }
 
-  #want(wish, place = null) {
-    this.#wish = wish;
+  /** Whether an edit of one key takes the place of one of another. A key that also sets something else
+   * stays. */
+  #replaces(key, other) {
+    if (key === other) return true;
+    const lists = this.alike.filter(list => list.includes(other));
+    return lists.length > 0 && lists.every(list => list.includes(key));
+  }
+  #with(edits, newer) {
+    return [...edits.filter(([key]) => !newer.some(([by]) => this.#replaces(by, key))), ...newer];
+  }
+  /** A text and its edits. */
+  #whole({text, edits}) {
+    if (text !== null) return {text, edits};
+    return {text: this.#state.text, edits: this.#with(this.#state.edits, edits)};
+  }
+
+  #want(wanted, place = null) {
+    this.#wanted = wanted;
     this.#isNewer = true;
     if (place) this.#wantedPlace = place;
-    this.#work();
+    this.#begin();
   }
 
   #forgetWishes() {
-    this.#wish = this.#state;
+    this.#wanted = nothing();
     this.#isNewer = false;
     this.#wantedPlace = null;
     this.#refused.clear();
+    this.#dropped.clear();
   }
 
   #replaceIfBroken() {
@@ -201,6 +216,11 @@ export class Session {
     this.#program = new Program();
     this.#hasScene = false;
     this.#since = null;
+  }
+
+  #tellAgain() {
+    this.onRefused();
+    if (this.facts) this.onOpened(this.facts, this.#leftOut);
   }
 
   async #haveScene() {
@@ -223,14 +243,16 @@ export class Session {
   }
 
   /** Does what is asked for, when the program has time; of several wishes the last. */
-  async #work() {
+  #begin() {
     // Somebody who goes on while the program still works does not want that work.
-    const isLong = this.#since !== null && performance.now() - this.#since > this.#patience_ms;
-    if (isLong && this.#saves === 0) {
+    if (this.#since !== null && performance.now() - this.#since > this.#patience_ms) {
       this.#patience_ms *= 2;
       this.#replaceProgram();
     }
-    if (this.#isWorking) return;
+    if (!this.#isWorking) this.#work = this.#workOn();
+  }
+
+  async #workOn() {
     this.#isWorking = true;
     this.onBusy(true);
     while (this.#isNewer || this.#wantedPlace) {
@@ -250,14 +272,14 @@ export class Session {
   #recover(error) {
     this.#replaceIfBroken();
     if (error instanceof Failure && error.message === STOPPED) {
-      // What is wanted no more needs no words.
-      const slow = this.#tried.edits.filter(edit => this.#wish.edits.includes(edit));
+      // A wish that was replaced gets no message.
+      const slow = this.#tried.edits.filter(edit => this.#wanted.edits.includes(edit));
       for (const [key] of slow) this.#refused.set(key, [TOO_LONG]);
-      if (this.#tried.text !== null && this.#tried.text === this.#wish.text) {
-        this.#refused.set(TEXT, [TOO_LONG]);
-        this.#wish = this.#state;
+      if (this.#tried.text !== null && this.#tried.text === this.#wanted.text) {
+        this.#problemsOfText = [TOO_LONG];
+        this.#wanted.text = null;
       }
-      this.#wish = {...this.#wish, edits: this.#wish.edits.filter(edit => !slow.includes(edit))};
+      this.#wanted = {...this.#wanted, edits: this.#wanted.edits.filter(edit => !slow.includes(edit))};
     } else {
       this.#forgetWishes();
       const reason = "The program crashed and was restarted; changes that it had not accepted were " +
@@ -265,9 +287,8 @@ export class Session {
       this.#refused.set("program", [{origin: "", key: "", reason}]);
       if (!(error instanceof Failure)) reportError(error);
     }
-    this.#tried = {edits: [], text: null};
-    this.onRefused();
-    if (this.facts) this.onOpened(this.facts, this.#leftOut);
+    this.#tried = nothing();
+    this.#tellAgain();
   }
 
   async #showWanted() {
@@ -295,47 +316,49 @@ export class Session {
 
   /** Opens what is wanted: without edits that the program refuses, one after the other. */
   async #openWanted() {
-    const wish = this.#wish;
+    const {text, edits: all} = this.#wanted;
     this.#isNewer = false;
-    const refused = new Map();
-    for (let edits = wish.edits; ;) {
-      const problems = await this.#try({text: wish.text, edits});
+    this.#dropped.clear();
+    const refused = new Map([...this.#refused].filter(([, problems]) => problems.includes(TOO_LONG)));
+    for (let edits = all; ;) {
+      const problems = await this.#try({text, edits});
       if (problems.length === 0) break;
       const wrong = this.#culprits(problems, edits);
-      for (const name of wrong) {
-        const mine = problems.filter(({origin}) => origin === name);
-        refused.set(name, mine.length > 0 ? mine : problems);
+      if (wrong.length === 0) {
+        this.#problemsOfText = problems;
+        if (this.#wanted.text === text) this.#wanted.text = null;
+        break;
       }
-      if (wrong.includes(TEXT)) break;
+      for (const key of wrong) {
+        const mine = problems.filter(({origin}) => origin === key);
+        (this.#typed.has(key) ? refused : this.#dropped).set(key, mine.length > 0 ? mine : problems);
+      }
       edits = edits.filter(([key]) => !wrong.includes(key));
       // What is left is shown already.
-      if (wish.text === this.#state.text && linesOf(edits) === linesOf(this.#state.edits)) break;
+      if (text === null && edits.length === 0) break;
     }
-    this.#tried = {edits: [], text: null};
-    if (this.#wish === wish && refused.has(TEXT)) this.#wish = this.#state;
-    for (const [key, words] of this.#refused) {
-      if (words.includes(TOO_LONG) && !refused.has(key)) refused.set(key, words);
-    }
+    this.#tried = nothing();
+    const isDropped = edit => all.includes(edit) && this.#dropped.has(edit[0]);
+    this.#wanted = {...this.#wanted, edits: this.#wanted.edits.filter(edit => !isDropped(edit))};
     if (!this.#isNewer) this.#refused = refused;
     this.onRefused();
   }
 
-  /** The keys of the edits that are wrong, or TEXT. Where the program names none, it is the last edit. */
+  /** The keys of the edits that are wrong; where the program names none of them, the last one. */
   #culprits(problems, edits) {
     const named = edits.map(([key]) => key).filter(key => problems.some(({origin}) => origin === key));
-    if (named.length > 0) return named;
-    return [edits.at(-1)?.[0] ?? TEXT];
+    return named.length > 0 ? named : edits.slice(-1).map(([key]) => key);
   }
 
   /** @returns what is wrong; nothing if the program has accepted it. */
-  async #try(wish) {
+  async #try(wanted) {
     // A step is relative to the picture that is shown, so it means nothing in another scene.
     const place = this.#wantedPlace?.step ? null : this.#wantedPlace;
-    this.#tried = {edits: wish.edits.filter(edit => !this.#state.edits.includes(edit)),
-      text: wish.text === this.#state.text ? null : wish.text};
+    this.#tried = wanted;
+    const whole = this.#whole(wanted);
     let answer;
     try {
-      answer = await this.#call("open", {text: wish.text, settings: linesOf(wish.edits),
+      answer = await this.#call("open", {text: whole.text, settings: linesOf(whole.edits),
         places: place ? [place, this.#place] : [this.#place], screen: this.#screen});
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
@@ -343,26 +366,36 @@ export class Session {
     }
     this.#hasScene = true;
     this.facts = answer.facts;
-    this.#accept(wish);
+    this.#leftOut = answer.leftOut;
+    this.#accept(wanted, whole);
     if (place && place === this.#wantedPlace) this.#wantedPlace = null;
     if (place && answer.placeProblem === "") this.#place = place;
     // The picture first: it is what a hand on a slider waits for.
     this.onPicture(answer.picture);
     this.onShown(answer.picture.shown);
-    this.#leftOut = answer.leftOut;
     this.onOpened(answer.facts, answer.leftOut);
     this.onPlaceProblem(place ? answer.placeProblem : "");
     return [];
   }
 
-  #accept(wish) {
-    this.#state = wish;
-    // Bodies are counted from those of the text, so it has to have them before the next edit.
-    if (!wish.edits.some(isOfBodies)) return;
-    this.#state = {text: this.facts.toml, edits: []};
-    const isDone = edit => wish.edits.includes(edit);
-    this.#wish = {text: this.#state.text, edits: this.#wish.edits.filter(edit => !isDone(edit))};
+  #accept(wanted, whole) {
+    this.#state = whole;
+    const {text} = this.#wanted;
+    let edits = this.#wanted.edits.filter(edit => !wanted.edits.includes(edit));
+    if (whole.edits.some(([key]) => key.startsWith("body "))) {
+      // Bodies are counted from those of the text, so it has to have them before the next edit.
+      this.#state = {text: this.facts.toml, edits: []};
+      edits = renumbered(edits, whole.edits.filter(([, value]) => value === null).map(([key]) => numberOf(key)));
+    }
+    this.#wanted = {text: text === wanted.text ? null : text, edits};
   }
 }
 
-export {wordsOf};
+/** Edits of bodies after these numbers are gone. */
+function renumbered(edits, removed) {
+  return edits.filter(([key]) => !removed.includes(numberOf(key))).map(edit => {
+    const number = numberOf(edit[0]);
+    const less = removed.filter(one => one < number).length;
+    return less === 0 ? edit : [edit[0].replace(/\d+/, String(number - less)), edit[1]];
+  });
+}

@@ -15,8 +15,8 @@ function stepOf(pixel) {
   return [1, 2, 5, 10].map(times => times * power).find(step => step >= pixel) ?? 10 * power;
 }
 function snapped(value, step, [low, high]) {
-  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return String(Number(Math.min(Math.max(Math.round(value / step) * step, low), high).toFixed(decimals + 1)));
+  const rounded = Number((Math.round(value / step) * step).toFixed(6));
+  return String(Math.min(Math.max(rounded, low), high));
 }
 
 export class Stage {
@@ -46,7 +46,6 @@ export class Stage {
     if (this.#picture.width !== facts.width || this.#picture.height !== facts.height) {
       this.#picture.width = facts.width;
       this.#picture.height = facts.height;
-      this.#picture.style.setProperty("--shape", String(facts.width / facts.height));
     }
     if (width > 0) {
       const bytes = new Uint8ClampedArray(pixels, 0, 4 * width * height);
@@ -58,9 +57,11 @@ export class Stage {
 
   /** {x, y} in pixels of the picture, `unit` of which are a pixel of the page. */
   #placeOf({clientX, clientY}) {
-    const {left, top, width} = this.#picture.getBoundingClientRect();
-    const unit = this.#picture.width / width;
-    return {x: (clientX - left) * unit, y: (clientY - top) * unit, unit};
+    const {left, top, width, height} = this.#picture.getBoundingClientRect();
+    const unit = Math.max(this.#picture.width / width, this.#picture.height / height);
+    // It may be smaller than its box, and is in the middle of it then.
+    return {x: (clientX - left - width / 2) * unit + this.#picture.width / 2,
+      y: (clientY - top - height / 2) * unit + this.#picture.height / 2, unit};
   }
 
   /** What can be grabbed there: a key, its value and pixels for each unit of it near that value; of an

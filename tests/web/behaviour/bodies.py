@@ -43,6 +43,7 @@ def removing_all_but_one_and_adding(check):
     # The one that is left is behind the others: there may be no room in the box.
     check.page.choose("cradle")
     for count in [7, 8]:
+        check.page.value("check.until('the room is known', () => document.body.dataset.hasChoices === 'true')")
         check.page.value(f"check.after(() => {ADD}.click())")
         check.expect("bodies", _bodies(check), count)
     check.expect("messages of the cradle", check.page.call("problems"), [])
