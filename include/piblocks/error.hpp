@@ -17,11 +17,12 @@ struct Error : std::runtime_error {
 
 /// One thing that is wrong.
 struct Problem {
-  std::string key = {};     ///< that it is about, as in a scene file: "red.mass"; may be empty
+  /// The key that is wrong, as a scene file names it: "red.mass"; may be empty.
+  std::string key = {};
   std::string reason = {};  ///< with the value: "= -1: must be greater than 0"; or ": is too long"
   std::string item = {};    ///< of the key's list, if it is about one: "unfolded"
   std::string origin = {};  ///< of the value, as "--size" or "story.toml:12"; empty if not known
-  bool is_unread = false;   ///< the text of the value, or its key, means nothing
+  bool means_nothing = false;  ///< there is no such key, or the text is no value of it
 
   /// As it is told: "story.toml:12: red.mass = -1: must be greater than 0".
   std::string line() const {
@@ -46,7 +47,7 @@ class UsageError : public Error {
   explicit UsageError(std::vector<std::string> lines) : UsageError(problems_of(std::move(lines))) {}
 
   const std::vector<Problem>& problems() const noexcept { return problems_; }
-  /// The line of each.
+  /// line() of each problem, in order.
   std::vector<std::string> lines() const {
     std::vector<std::string> lines;
     for (const Problem& problem : problems_) lines.push_back(problem.line());

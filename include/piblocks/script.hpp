@@ -82,7 +82,7 @@ Scene with_film_view(Scene scene, const View& film);
 
 /// Everything that is wrong with it, except what depends on the length of a run; empty if nothing
 /// is.
-std::vector<std::string> problems_of(const Storyboard& story);
+std::vector<Problem> problems_of(const Storyboard& story);
 
 /// All that changes a frame, as exact text in a fixed order: a line for the film and one for each
 /// segment. Two storyboards with equal descriptions are the same film.
@@ -105,6 +105,7 @@ class ScriptBuilder {
  public:
   ScriptBuilder();
   ~ScriptBuilder();
+  /// With all that the other one has read and set; neither changes the other later.
   ScriptBuilder(const ScriptBuilder& other);
   ScriptBuilder& operator=(const ScriptBuilder&) = delete;
 
@@ -115,14 +116,16 @@ class ScriptBuilder {
   void read_text(const std::string& origin, std::string_view text);
   /// Ignores a key of the scene file, so that it keeps its default. Call this before reading. The
   /// same key in a [[part]] is read all the same.
-  /// "body 2.label" is a property of the second [[body]], and "body 2" all of it.
+  /// "body 2.label" is a property of the second [[body]], and "body 2" all of it. Bodies that are
+  /// left out keep their numbers.
   void leave_out(const std::string& key);
-  /// Ignores one of a list, wherever the list is set. Call this before reading.
+  /// Removes one item from a key's list, whether the file or set() gives the list. Call this before
+  /// reading.
   /// @param item  as the item of a Problem
   void leave_out(const std::string& key, const std::string& item);
   /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
   /// whole film only, whether it is read before or after. "body 2.mass" is the mass of the second
-  /// [[body]] of the file, whatever is left out of it; one more than there are is added.
+  /// [[body]] of the file, which must have been read. The number after the last one adds a body.
   /// @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const std::string& text);
   /// The same with the texts of a list, such as the two of "view.x".

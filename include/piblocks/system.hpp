@@ -70,10 +70,13 @@ System article_system(int digits, int base = kUsualBase);
 inline constexpr std::size_t kMaxBodies = 100'000;
 inline constexpr std::size_t kMaxWalls = 16;
 
-/// Everything that is wrong with a system; empty if nothing is. Keys are "body 3.mass", counted
-/// from 1, or "blue.mass" of a body with that name; "wall 1.normal", "body" and "wall". If discs
-/// overlap, it names some; the others do not overlap. It takes about n log n steps for n bodies,
-/// whatever their places and sizes are.
+/// "body 3" for a body without a name: they are counted from 1. Or a name of this kind.
+std::string body_key(const System& system, std::size_t body);
+
+/// Everything that is wrong with a system; empty if nothing is. Keys are "body 3.mass", as of
+/// body_key(), or "blue.mass" of a body with that name; "wall 1.normal", "body" and "wall". If
+/// discs overlap, it names some; the others do not overlap. It takes about n log n steps for n
+/// bodies, whatever their places and sizes are.
 std::vector<Problem> problems_of(const System& system);
 
 /// Whether collisions may never end: a body is in a closed box, or can return to two immovable

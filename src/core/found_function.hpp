@@ -2,9 +2,18 @@
 // In: a function that looks others up by their names. Out: objects that are called like those.
 #pragma once
 
+#include <dlfcn.h>
+
 #include <atomic>
 
 namespace piblocks {
+
+/// The address of a function in a library, or in what that needs; nullptr if it cannot be loaded,
+/// as dlerror() says. The library stays: its functions are called until the program ends.
+inline void* find_in_library(const char* file, const char* name) {
+  void* const library = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  return library == nullptr ? nullptr : ::dlsym(library, name);
+}
 
 template <auto find, typename Function>
 class FoundFunction;

@@ -3,22 +3,13 @@
 #include <vector>
 
 #include "core/processors.hpp"
+#include "core/text.hpp"
 
 namespace piblocks {
 namespace {
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> pieces;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(separator), text.size());
-    pieces.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return pieces;
-}
-
 bool holds(std::string_view list, std::string_view wanted) {
-  const std::vector<std::string_view> pieces = split(list, ',');
+  const std::vector<std::string> pieces = split(list, ',');
   return std::find(pieces.begin(), pieces.end(), wanted) != pieces.end();
 }
 
@@ -51,14 +42,14 @@ std::optional<double> limit_of(const std::string& folder, bool is_version_2, con
 /// The path of the process's group in the hierarchy; nothing if the text has none.
 std::optional<std::string> group_in(std::string_view groups, bool is_version_2) {
   constexpr std::size_t kNone = std::string_view::npos;
-  for (const std::string_view line : split(groups, '\n')) {
+  for (const std::string& line : split(groups, '\n')) {
     const std::size_t first = line.find(':');
     const std::size_t second = first == kNone ? kNone : line.find(':', first + 1);
     if (second == kNone) continue;
-    const std::string_view controllers = line.substr(first + 1, second - first - 1);
+    const std::string controllers = line.substr(first + 1, second - first - 1);
     const bool is_it =
         is_version_2 ? line.starts_with("0:") && controllers.empty() : holds(controllers, "cpu");
-    if (is_it) return std::string(line.substr(second + 1));
+    if (is_it) return line.substr(second + 1);
   }
   return std::nullopt;
 }
@@ -70,13 +61,13 @@ struct Mount {
 
 /// A line of mountinfo: ID PARENT DEVICE ROOT PLACE OPTIONS … - TYPE SOURCE OPTIONS (proc(5)).
 std::optional<Mount> mount_of(std::string_view mounts, bool is_version_2) {
-  for (const std::string_view line : split(mounts, '\n')) {
-    const std::vector<std::string_view> fields = split(line, ' ');
+  for (const std::string& line : split(mounts, '\n')) {
+    const std::vector<std::string> fields = split(line, ' ');
     const auto dash = std::find(fields.begin(), fields.end(), "-");
     if (dash - fields.begin() < 6 || fields.end() - dash < 4) continue;
     const bool is_it =
         is_version_2 ? dash[1] == "cgroup2" : dash[1] == "cgroup" && holds(dash[3], "cpu");
-    if (is_it) return Mount{std::string(fields[3]), std::string(fields[4])};
+    if (is_it) return Mount{fields[3], fields[4]};
   }
   return std::nullopt;
 }

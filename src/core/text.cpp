@@ -53,6 +53,16 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kAround = " \t\r\n";
   const auto first = text.find_first_not_of(kAround);

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace piblocks {
 
@@ -38,6 +39,9 @@ std::string shortened(std::string_view text);
 
 /// The words of a line, with one blank between them; empty if it has none.
 std::string with_single_blanks(std::string_view line);
+
+/// The parts between separators: one more than there are of these.
+std::vector<std::string> split(std::string_view text, char separator);
 
 /// "1 frame", "2 frames". @param what  one of them
 std::string counted(std::int64_t count, std::string_view what);

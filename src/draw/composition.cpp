@@ -76,9 +76,7 @@ class Composer {
         context_{looks_, layout_},
         loupe_(LoupeInset::make(context_, plan_)) {}
 
-  std::optional<LineMap> line() const {
-    return context_.is_plane() ? std::nullopt : std::optional(line_map(context_));
-  }
+  const Layout& layout() const { return layout_; }
 
   std::vector<Drawable> run(std::shared_ptr<const Image> logo) {
     add_stage();
@@ -218,7 +216,7 @@ class Composer {
 Composition::Composition(const Scene& scene, const Log& log, std::shared_ptr<const Image> logo)
     : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
   Composer composer(scene, log);
-  line_ = composer.line();
+  layout_ = std::make_shared<const Layout>(composer.layout());
   drawables_ = composer.run(std::move(logo));
   needs_ = needs_of(drawables_);
 }

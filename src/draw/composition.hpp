@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "draw/stage/line_map.hpp"
 #include "physics/exposure.hpp"
 
 namespace piblocks {
@@ -97,6 +96,8 @@ struct Drawable {
   FrameNeeds needs = {};  ///< what it reads of a FrameState beside what is always there
 };
 
+struct Layout;
+
 /// The layout and all that does not move, as far as the scene asks for it. The log is read only
 /// while it is made. Const members are thread-safe.
 class Composition {
@@ -109,12 +110,12 @@ class Composition {
   DrawList frame(const FrameState& shown) const;
   /// What frame() reads of a FrameState beside what is always there.
   const FrameNeeds& needs() const noexcept { return needs_; }
-  /// Of blocks on a line; nothing of discs.
-  const std::optional<LineMap>& line() const noexcept { return line_; }
+  /// Where the bodies are in the frame.
+  const Layout& layout() const noexcept { return *layout_; }
 
  private:
   DrawList empty_;
-  std::optional<LineMap> line_;
+  std::shared_ptr<const Layout> layout_;
   std::vector<Drawable> drawables_;  ///< in the order of their ids
   FrameNeeds needs_;                 ///< of all of them
 };

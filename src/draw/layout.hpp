@@ -69,8 +69,10 @@ struct Layout {
   double height_px(std::size_t body) const noexcept { return shapes[body].height_px; }
   /// A block on the floor.
   Rect at(std::size_t body, const FrameState& shown) const noexcept {
+    return block_at(body, shown.state.bodies[body].position[0]);
+  }
+  Rect block_at(std::size_t body, double position) const noexcept {
     const BlockShape& block = shapes[body];
-    const double position = shown.state.bodies[body].position[0];
     return {origin.x + (position - block.width / 2) * scale, floor_px - block.height_px,
             block.width * scale, block.height_px};
   }

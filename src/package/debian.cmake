@@ -46,7 +46,10 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # What is loaded, not linked: Debian names libavformat.so.59 libavformat59.
 pkg_get_variable(avformat_libdir libavformat libdir)
 file(REAL_PATH ${avformat_libdir}/libavformat.so avformat)
-string(REGEX REPLACE ".*\\.so\\.([0-9]+).*" "libavformat\\1" avformat ${avformat})
+if(NOT avformat MATCHES "\\.so\\.([0-9]+)")
+  message(FATAL_ERROR "libavformat: no version in the name of '${avformat}'")
+endif()
+set(avformat libavformat${CMAKE_MATCH_1})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libcairo2 (>= 1.16), ${avformat}")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
 "Two sliding blocks and a wall collide as often as the first digits of pi say.

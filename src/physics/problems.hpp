@@ -32,7 +32,7 @@ class SceneProblems {
   /// @param reason, args  as fmt::format() takes them.
   template <typename... Args>
   void add(const std::string& key, fmt::format_string<const Args&...> reason, const Args&... args) {
-    list_.push_back({key, fmt::format(reason, args...)});
+    add_item(key, "", reason, args...);
   }
   template <typename... Args>
   void require(bool holds, const std::string& key, fmt::format_string<const Args&...> reason,

@@ -14,10 +14,10 @@
 namespace piblocks {
 namespace {
 
-/// What messages call a body; without a name, bodies are counted from 1 there.
+/// What messages call a body.
 std::string name_of(const System& system, std::size_t body) {
   const std::string& name = system.bodies[body].name;
-  return name.empty() ? fmt::format("body {}", body + 1) : name;
+  return name.empty() ? body_key(system, body) : name;
 }
 std::string key_of(const System& system, std::size_t body, const char* value) {
   return fmt::format("{}.{}", name_of(system, body), value);
@@ -312,6 +312,11 @@ Rational mass_ratio_of(int digits, int base) {
 }
 
 System article_system(int digits, int base) { return system_of(article_blocks(digits, base)); }
+
+std::string body_key(const System& system, std::size_t body) {
+  const std::string& name = system.bodies[body].name;
+  return name.starts_with("body ") ? name : fmt::format("body {}", body + 1);
+}
 
 bool has_short_names(const System& system) {
   const auto& [dimensions, bodies, walls, restitution, wall_restitution] = system;

@@ -250,8 +250,7 @@ Film::Film(const Script& script, const FilmMaking& making) : view_(view_of(scrip
     return;
   }
   const auto& story = std::get<Storyboard>(script);
-  std::vector<std::string> problems = problems_of(story);
-  if (!problems.empty()) throw SceneError(std::move(problems));
+  require_valid(problems_of(story));
   add_segments(story, making);
   place_segments(story);
 }

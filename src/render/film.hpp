@@ -47,7 +47,7 @@ class FilmRun {
   const Scene& scene() const noexcept { return scene_; }
   const Log& log() const noexcept { return *log_; }
   /// Of its pictures, as of a Composition; not with FilmUse::audio_only.
-  const std::optional<LineMap>& line() const noexcept { return composition_->line(); }
+  const Layout& layout() const noexcept { return composition_->layout(); }
   /// A frame by a schedule, which may be another run's. @param number  >= 0
   DrawList frame(const Schedule& schedule, std::int64_t number) const;
   /// A picture of each time: the first frame that shows the time. If no frame does, a frame that

@@ -300,7 +300,7 @@ Rendered render_chunks(const RenderJob& job, const Plan& plan, const OnProgress&
                         : plan.frames.count(),
                     {}};
   if (job.resume && job.shard &&
-      has_shard(shard_name(job.output, *job.shard), header_of_shard(job, plan))) {
+      has_shard(shard_name(job.output, *job.shard), header_of_shard(job, plan), stop)) {
     rendered.aftermath = "kept what an earlier run has made";
     return rendered;
   }

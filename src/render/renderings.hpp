@@ -40,7 +40,7 @@ ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t fr
 
 /// Whether this part has been rendered already, whole, with this header. A damaged one has not.
 /// @throws UsageError naming what differs if the file is of another job.
-bool has_shard(const std::string& path, const ShardHeader& header);
+bool has_shard(const std::string& path, const ShardHeader& header, const std::stop_token& stop);
 
 /// Renders the job's video into the bundle's folder, with poster.png, captions.vtt, alt.txt,
 /// latex.tex and reveal.html beside it; of a storyboard the video and the last picture of each

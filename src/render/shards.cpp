@@ -268,7 +268,7 @@ ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t fr
   return header;
 }
 
-bool has_shard(const std::string& path, const ShardHeader& header) {
+bool has_shard(const std::string& path, const ShardHeader& header, const std::stop_token& stop) {
   if (!is_shard_file(path)) return false;
   ShardReader reader(path);
   std::string name = difference(reader.header(), header);
@@ -280,7 +280,9 @@ bool has_shard(const std::string& path, const ShardHeader& header) {
                     path, name));
   }
   try {
-    while (reader.next()) continue;
+    while (reader.next()) {
+      if (stop.stop_requested()) throw Interrupted();
+    }
     return true;
   } catch (const IoError&) {
     return false;  // damaged

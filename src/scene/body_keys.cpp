@@ -98,27 +98,27 @@ std::string text_of(const ExactVector& vector) {
   return fmt::format("[{}, {}]", vector[0].get_str(), vector[1].get_str());
 }
 
-/// The body that the table called `name` describes. @param left_out  keys that are not read
-ReadBody read_properties(const TomlTable& table, const std::string& name,
-                         const std::set<std::string>& left_out,
-                         const std::function<void(std::size_t line, Problem)>& add) {
+/// The body that a table describes. @param add  takes line and property of what is wrong
+ReadBody read_properties(
+    const TomlTable& table,
+    const std::function<void(std::size_t line, const std::string& property, Problem)>& add) {
   ReadBody read;
   for (const TomlEntry& entry : table.entries) {
-    const std::string full_key = fmt::format("{}.{}", name, entry.key);
-    if (left_out.contains(full_key)) continue;
     if (entry.key.starts_with("position")) read.has_position = true;  // perhaps one with a problem
+    const auto add_unread = [&](const std::string& reason) {
+      add(entry.line, entry.key, {.reason = ": " + reason, .means_nothing = true});
+    };
     const auto* const key =
         std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
     if (key == kBodyKeys.end()) {
-      add(entry.line,
-          {full_key, fmt::format(": unknown key{}", did_you_mean(entry.key, names_of(kBodyKeys)))});
+      add_unread("unknown key" + did_you_mean(entry.key, names_of(kBodyKeys)));
     } else if (!entry.problem.empty()) {
-      add(entry.line, {full_key, ": " + entry.problem});
+      add_unread(entry.problem);
     } else {
       try {
         key->set(read, entry.values);
       } catch (const UsageError& error) {
-        add(entry.line, unread(full_key, entry.values, error));
+        add(entry.line, entry.key, problem_of_text("", entry.values, error));
       }
     }
   }
@@ -136,64 +136,77 @@ BoxSide parse_box_side(const Values& values) {
   return side;
 }
 
-void BodyDraft::read(const std::string& path, const std::vector<TomlTable>& tables,
+void BodyDraft::read(const std::string& path, std::vector<TomlTable> tables,
                      ProblemLines& problems) {
   path_ = path;
   tables_.clear();
+  removed_.clear();
+  origins_.clear();
   if (tables.size() > kMaxBodies) {
-    problems.add(path, tables[kMaxBodies].line,
-                 {.reason = fmt::format("there must be at most {} of them", kMaxBodies)});
-  } else {
-    tables_ = tables;
+    return problems.add(path, tables[kMaxBodies].line,
+                        {.reason = fmt::format("there must be at most {} of them", kMaxBodies)});
   }
-  read_all(problems);
+  tables_ = std::move(tables);
+  for (const std::string& key : left_out_) {
+    const std::size_t number = number_in(key, "body ");
+    if (number > tables_.size()) continue;
+    const std::size_t dot = key.find('.');
+    if (dot == std::string::npos) {
+      removed_.insert(number);
+    } else {
+      erase_property(number, key.substr(dot + 1));
+    }
+  }
 }
 
-void BodyDraft::set(const std::string& origin, const std::string& key, const Values& values,
-                    ProblemLines& problems) {
+void BodyDraft::erase_property(std::size_t number, const std::string& property) {
+  std::erase_if(tables_[number - 1].entries,
+                [&](const TomlEntry& entry) { return entry.key == property; });
+}
+
+void BodyDraft::set(const std::string& origin, const std::string& key, const Values& values) {
   const std::size_t number = number_in(key, "body ");
   const std::size_t dot = key.find('.');
   if (dot == std::string::npos) throw UsageError("must be a property, as body 2.mass");
   if (tables_.empty()) throw UsageError("there is no [[body]]");
   if (number > tables_.size() + 1) {
-    throw UsageError(fmt::format("there are {} bodies", tables_.size()));
+    throw UsageError(fmt::format("there are {} bodies; the next one is body {}", tables_.size(),
+                                 tables_.size() + 1));
   }
   if (number > tables_.size()) tables_.emplace_back();
-  std::vector<TomlEntry>& entries = tables_[number - 1].entries;
   const std::string property = key.substr(dot + 1);
-  std::erase_if(entries, [&](const TomlEntry& entry) { return entry.key == property; });
-  entries.push_back({property, values, {}, 0, {}});
+  erase_property(number, property);
+  tables_[number - 1].entries.push_back({property, values, {}, 0, {}});
   origins_[key] = origin;
-  left_out_.erase(key);
-  // What is wrong with the bodies is found again.
-  problems.drop([](const Problem& problem) { return number_in(problem.key, "body ") > 0; });
-  read_all(problems);
 }
 
-void BodyDraft::read_all(ProblemLines& problems) {
-  bodies_ = {};
-  numbers_.clear();
+void BodyDraft::put_bodies_into(Scene& scene, ProblemLines& problems) const {
+  scene.system.bodies.clear();
+  scene.styles.clear();
   for (std::size_t number = 1; number <= tables_.size(); ++number) {
-    const std::string key = fmt::format("body {}", number);
-    const bool is_last = number == tables_.size() && numbers_.empty();
-    const bool is_out = left_out_.contains(key);
-    if (is_out && is_last) problems.add(path_, {key, ": is the only one, and stays"});
-    if (!is_out || is_last) read_body(number, problems);
+    if (!removed_.contains(number)) {
+      put_body_into(scene, number, problems);
+    } else if (number == tables_.size() && scene.styles.empty()) {
+      problems.add(path_,
+                   {fmt::format("body {}", number), ": cannot be removed: a scene needs a body"});
+      put_body_into(scene, number, problems);
+    }
   }
 }
 
-void BodyDraft::read_body(std::size_t number, ProblemLines& problems) {
+void BodyDraft::put_body_into(Scene& scene, std::size_t number, ProblemLines& problems) const {
   const TomlTable& table = tables_[number - 1];
   const std::string name = fmt::format("body {}", number);
-  const auto add = [&](std::size_t line, Problem problem) {
+  const auto add = [&](std::size_t line, const std::string& property, Problem problem) {
+    problem.key = name + (property.empty() ? "" : '.' + property);
     const auto origin = origins_.find(problem.key);
     if (origin != origins_.end()) return problems.add(origin->second, std::move(problem));
     if (line == 0) return problems.add(name, std::move(problem));  // of a body that was added
     problems.add(path_, line, std::move(problem));
   };
-  const auto problem = [&](const std::string& text) { add(table.line, {name, text}); };
-  ReadBody read = read_properties(table, name, left_out_, add);
-  if (!read.has_position) add(table.line, {name + ".position", ": is missing"});
+  const auto problem = [&](const std::string& text) { add(table.line, "", {.reason = text}); };
+  ReadBody read = read_properties(table, add);
+  if (!read.has_position) add(table.line, "position", {.reason = ": is missing"});
   if (read.is_block && read.is_disc) {
     problem(": has a width and a radius; blocks have widths, discs have radii");
   }
@@ -202,17 +215,18 @@ void BodyDraft::read_body(std::size_t number, ProblemLines& problems) {
         ": is a block, and blocks move along x alone; give one number for "
         "position and velocity, or a radius instead of the width");
   }
+  std::vector<Body>& bodies = scene.system.bodies;
   const int dimensions = read.is_disc || read.is_plane ? 2 : 1;
-  if (bodies_.bodies.empty()) {
-    bodies_.dimensions = dimensions;
-  } else if (bodies_.dimensions != dimensions) {
-    problem(fmt::format(": is a {}, and body 1 is a {}; all must be of one kind",
-                        dimensions == 1 ? "block" : "disc",
-                        bodies_.dimensions == 1 ? "block" : "disc"));
+  if (bodies.empty()) {
+    scene.system.dimensions = dimensions;
+  } else if (scene.system.dimensions != dimensions) {
+    const auto kind_of = [](int count) { return count == 1 ? "block" : "disc"; };
+    problem(fmt::format(": is a {}, and {} is a {}; all must be of one kind", kind_of(dimensions),
+                        body_key(scene.system, 0), kind_of(scene.system.dimensions)));
   }
-  bodies_.bodies.push_back(std::move(read.body));
-  bodies_.styles.push_back(std::move(read.style));
-  numbers_.push_back(number);
+  if (number != bodies.size() + 1) read.body.name = name;
+  bodies.push_back(std::move(read.body));
+  scene.styles.push_back(std::move(read.style));
 }
 
 void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>& tables,
@@ -240,7 +254,7 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
             ExactVector{parse_rational(entry.values[0]), parse_rational(entry.values[1])};
       } catch (const UsageError& error) {
         is_read = false;
-        problems.add(path, entry.line, unread("wall." + entry.key, entry.values, error));
+        problems.add(path, entry.line, problem_of_text("wall." + entry.key, entry.values, error));
       }
     }
     if (found != 2) {
@@ -252,23 +266,13 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
   }
 }
 
-void BodyDraft::put_into(Scene& scene) const {
-  std::vector<Wall> walls;
+void BodyDraft::put_into(Scene& scene, ProblemLines& problems) const {
+  put_bodies_into(scene, problems);
+  std::vector<Wall>& walls = scene.system.walls;
+  walls.clear();
   add_walls(x_, 0, {"left", "right"}, walls);
   add_walls(y_, 1, {"lower", "upper"}, walls);
   walls.insert(walls.end(), slanted_.begin(), slanted_.end());
-  scene.system.dimensions = bodies_.dimensions;
-  scene.system.bodies = bodies_.bodies;
-  scene.system.walls = std::move(walls);
-  scene.styles = bodies_.styles;
-}
-
-std::string BodyDraft::key_in_file(const std::string& key) const {
-  const std::size_t number = number_in(key, "body ");
-  if (number == 0 || number > numbers_.size() || numbers_[number - 1] == number) return key;
-  const std::size_t dot = key.find('.');
-  return fmt::format("body {}{}", numbers_[number - 1],
-                     dot == std::string::npos ? "" : key.substr(dot));
 }
 
 std::string BodyDraft::origin_of(const std::string& key) const {
@@ -294,9 +298,10 @@ std::string BodyDraft::origin_of(const std::string& key) const {
 std::size_t number_in(std::string_view text, std::string_view beginning) {
   if (!text.starts_with(beginning)) return 0;
   const std::string_view rest = text.substr(beginning.size());
+  const char* const end = rest.data() + rest.size();
   std::size_t number = 0;
-  std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  return number;
+  const char* const after = std::from_chars(rest.data(), end, number).ptr;
+  return after == end || *after == '.' ? number : 0;
 }
 
 void show_all(const System& system, View& view) {

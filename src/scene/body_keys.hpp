@@ -30,45 +30,38 @@ BoxSide parse_box_side(const Values& values);
 class BodyDraft {
  public:
   /// Replaces the bodies by those of the tables in this file.
-  void read(const std::string& path, const std::vector<TomlTable>& tables, ProblemLines& problems);
+  void read(const std::string& path, std::vector<TomlTable> tables, ProblemLines& problems);
   /// Replaces the slanted walls by those of the tables.
   void read_walls(const std::string& path, const std::vector<TomlTable>& tables,
                   ProblemLines& problems);
   /// Sets a property, as "body 2.mass"; the number after the last one is that of a new body.
-  /// @throws UsageError if there is no such property
-  void set(const std::string& origin, const std::string& key, const Values& values,
-           ProblemLines& problems);
+  /// @throws UsageError if there is no such body
+  void set(const std::string& origin, const std::string& key, const Values& values);
   /// Ignores "body 2.mass", or all of "body 2", in tables that are read later. Numbers stay.
-  void leave_out(const std::string& key) { left_out_.insert(key); }
+  void leave_out(const std::string& key) { left_out_.push_back(key); }
+  /// Ignores nothing in tables that are read from now on.
+  void leave_out_nothing() { left_out_.clear(); }
   void set_box_x(BoxSide side) { x_ = std::move(side); }
   void set_box_y(BoxSide side) { y_ = std::move(side); }
 
   bool empty() const noexcept { return tables_.empty(); }
-  /// Replaces the bodies of a scene, and walls.
-  void put_into(Scene& scene) const;
+  /// Replaces the bodies of a scene, and walls. Adds what is wrong with the texts of bodies.
+  void put_into(Scene& scene, ProblemLines& problems) const;
   bool has_slanted_walls() const noexcept { return !slanted_.empty(); }
-  /// The same key with the number that a body has in the file.
-  std::string key_in_file(const std::string& key) const;
   /// File and line of the table for this key of problems_of(), as "body 3.mass"; empty if there is
   /// none.
   std::string origin_of(const std::string& key) const;
 
  private:
-  struct Read {
-    std::vector<Body> bodies;
-    std::vector<BodyStyle> styles;
-    int dimensions = 1;
-  };
-
-  void read_all(ProblemLines& problems);
-  void read_body(std::size_t number, ProblemLines& problems);
+  void erase_property(std::size_t number, const std::string& property);
+  void put_bodies_into(Scene& scene, ProblemLines& problems) const;
+  void put_body_into(Scene& scene, std::size_t number, ProblemLines& problems) const;
 
   std::string path_;
   std::vector<TomlTable> tables_;               // of the file, and of bodies that were added
-  std::set<std::string> left_out_;              // keys
+  std::set<std::size_t> removed_;               // numbers of bodies
+  std::vector<std::string> left_out_;           // keys
   std::map<std::string, std::string> origins_;  // of properties that were set
-  Read bodies_;
-  std::vector<std::size_t> numbers_;  // of each, in tables_
   std::optional<BoxSide> x_;
   std::optional<BoxSide> y_;
   std::vector<Wall> slanted_;

@@ -6,7 +6,6 @@
 #include <piblocks/error.hpp>
 
 #include <cstddef>
-#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -31,12 +30,6 @@ class ProblemLines {
   }
   void add(const ProblemLines& more) {
     for (const Problem& problem : more.list_) add(problem);
-  }
-  /// Forgets some of them.
-  void drop(const std::function<bool(const Problem&)>& is_dropped) {
-    std::erase_if(list_, is_dropped);
-    known_.clear();
-    for (const Problem& problem : list_) known_.insert(problem.line());
   }
 
   bool empty() const noexcept { return list_.empty(); }

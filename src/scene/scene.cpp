@@ -259,9 +259,9 @@ std::vector<Problem> problems_of(const Scene& scene) {
   SceneProblems problems(problems_of(scene.system));
   problems.require(scene.styles.size() == scene.system.bodies.size(), "body",
                    "must have one style for each body");
-  for (std::size_t i = 0; i < scene.styles.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(scene.styles.size(), scene.system.bodies.size()); ++i) {
     const BodyStyle& style = scene.styles[i];
-    const std::string key = fmt::format("body {}.", i + 1);
+    const std::string key = body_key(scene.system, i) + '.';
     if (!style.label.empty()) check_line((key + "label").c_str(), style.label, problems);
     problems.require(!style.path || scene.system.dimensions == 2, key + "path",
                      "is for discs; blocks have the diagram 'time'");

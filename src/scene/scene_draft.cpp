@@ -15,20 +15,19 @@
 namespace piblocks {
 namespace {
 
-/// @param keys  that set the same value, of which a table may have only one.
-/// @return a problem if the table has several of them.
-std::optional<Problem> conflict_of(const TomlTable& table, std::vector<std::string_view> keys,
-                                   const char* what) {
-  std::erase_if(keys, [&](std::string_view key) {
+/// @return a problem if the table has several keys of one value.
+std::optional<Problem> conflict_of(const TomlTable& table, const KeysOfOneValue& of) {
+  Values keys = of.keys;
+  std::erase_if(keys, [&](const std::string& key) {
     return std::ranges::count(table.entries, key, &TomlEntry::key) == 0;
   });
   if (keys.size() < 2) return std::nullopt;
-  return Problem{.key = std::string(keys.front()),
+  return Problem{.key = keys.front(),
                  .reason = fmt::format("and {} {} set {}; leave out {} of them",
                                        fmt::join(keys.begin() + 1, keys.end(), " and "),
-                                       keys.size() == 2 ? "both" : "all", what,
+                                       keys.size() == 2 ? "both" : "all", of.value,
                                        keys.size() == 2 ? "one" : "all but one"),
-                 .is_unread = true};
+                 .means_nothing = true};
 }
 
 /// Of blocks and wall alike.
@@ -58,19 +57,16 @@ std::string key_of(const Scene& scene, const std::string& key) {
 
 }  // namespace
 
-void SceneDraft::read(const std::string& path, const TomlTable& table) {
-  for (const auto& problem :
-       {conflict_of(table, {"time.speed", "time.duration"}, "the speed"),
-        conflict_of(table, {"digits", "mass-ratio", "red.mass"}, "the mass of red"),
-        conflict_of(table, {"restitution", "blocks.restitution"}, "the restitution of the blocks"),
-        conflict_of(table, {"restitution", "wall.restitution"}, "the restitution of the wall")}) {
+void SceneDraft::read(const std::string& path, TomlTable table) {
+  for (const KeysOfOneValue& of : keys_of_one_value()) {
+    const std::optional<Problem> problem = conflict_of(table, of);
     if (!problem) continue;
     problems_.add(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, *problem);
   }
-  for (const TomlEntry& entry : table.entries) set_entry(path, entry);
+  for (TomlEntry& entry : table.entries) set_entry(path, entry);
 }
 
-void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
+void SceneDraft::set_entry(const std::string& path, TomlEntry& entry) {
   const std::string origin = fmt::format("{}:{}", path, entry.line);
   if (entry.key == "body" || (entry.key == "wall" && !entry.tables.empty())) {
     read_bodies(path, entry);
@@ -91,16 +87,16 @@ void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
 
 void SceneDraft::add_unread(const std::string& origin, const std::string& key,
                             const std::string& reason) {
-  problems_.add(origin, {.key = key, .reason = ": " + reason, .is_unread = true});
+  problems_.add(origin, {.key = key, .reason = ": " + reason, .means_nothing = true});
 }
 
-void SceneDraft::read_bodies(const std::string& path, const TomlEntry& entry) {
+void SceneDraft::read_bodies(const std::string& path, TomlEntry& entry) {
   if (entry.tables.empty()) {
     problems_.add(path, entry.line, {"body", ": is written [[body]], once for each"});
   } else if (entry.key == "wall") {
     bodies_.read_walls(path, entry.tables, problems_);
   } else {
-    bodies_.read(path, entry.tables, problems_);
+    bodies_.read(path, std::move(entry.tables), problems_);
   }
 }
 
@@ -127,12 +123,12 @@ void SceneDraft::set(const std::string& origin, const std::string& key, const Va
   try {
     set_key(origin, key, values);
   } catch (const UsageError& error) {
-    problems_.add(origin, unread(key, values, error));
+    problems_.add(origin, problem_of_text(key, values, error));
   }
 }
 
 void SceneDraft::set_key(const std::string& origin, const std::string& key, const Values& values) {
-  if (number_in(key, "body ") > 0) return bodies_.set(origin, key, values, problems_);
+  if (number_in(key, "body ") > 0) return bodies_.set(origin, key, values);
   if (key == "digits") return set_mass_ratio(origin, parse_digits(values), std::nullopt);
   if (key == "mass-ratio") {
     return set_mass_ratio(origin, std::nullopt, parse_rational(single(values), kMaxMassBits));
@@ -146,9 +142,8 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
     scene_.system.restitution = scene_.system.wall_restitution = parse_restitution(values);
     return;
   }
-  const std::span<const SceneKey> keys = scene_keys();
-  const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
-  if (found == keys.end()) {
+  const SceneKey* const found = find_scene_key(key);
+  if (found == nullptr) {
     add_unread(origin, key, about_unknown_key(key));
     return;
   }
@@ -171,15 +166,16 @@ void SceneDraft::set_mass_ratio(const std::string& origin, std::optional<int> di
 SceneDraft SceneDraft::next(const std::string& origin) const {
   SceneDraft draft = *this;
   draft.problems_ = {};
+  draft.bodies_.leave_out_nothing();
   draft.default_origin_ = origin;
   return draft;
 }
 
-Scene SceneDraft::scene() const {
+Scene SceneDraft::scene(ProblemLines& problems) const {
   Scene scene = scene_;
   set_shutter(scene.view);
   if (!bodies_.empty()) {
-    bodies_.put_into(scene);
+    bodies_.put_into(scene, problems);
     View seen = scene.view;
     show_all(scene.system, seen);
     if (!origins_.contains("view.x")) scene.view.x = seen.x;
@@ -248,13 +244,13 @@ void SceneDraft::check_bodies(ProblemLines& problems) const {
 }
 
 Scene SceneDraft::make(ProblemLines& problems, bool of_film) const {
-  Scene made = scene();
   ProblemLines found = problems_;
+  Scene made = scene(found);
   check_bodies(found);
   for (Problem problem : problems_of(made)) {
     if (of_film && !is_film_key(problem.key)) continue;
     if (!found.empty() && is_repeated(problem.key)) continue;
-    problem.key = bodies_.key_in_file(key_of(made, problem.key));
+    problem.key = key_of(made, problem.key);
     found.add(origin_of(problem.key), problem);
   }
   problems.add(found);

@@ -21,12 +21,12 @@ class SceneDraft {
   explicit SceneDraft(std::string origin) : default_origin_(std::move(origin)) {}
 
   /// Sets every key of a table of this file.
-  void read(const std::string& path, const TomlTable& table);
+  void read(const std::string& path, TomlTable table);
   /// Sets one key. @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const Values& values);
   /// Leaves out "body 2.label", a property of a [[body]] that is read later, or "body 2".
-  void leave_out_of_bodies(const std::string& key) { bodies_.leave_out(key); }
-  /// A draft that begins with the values of this one, without its problems.
+  void leave_out_body_key(const std::string& key) { bodies_.leave_out(key); }
+  /// A draft that begins with the values of this one, without its problems, and reads all keys.
   SceneDraft next(const std::string& origin) const;
 
   /// The scene. Adds everything that is wrong with it, also text that could not be read: origin,
@@ -35,9 +35,9 @@ class SceneDraft {
   Scene make(ProblemLines& problems, bool of_film = false) const;
 
  private:
-  Scene scene() const;
-  void set_entry(const std::string& path, const TomlEntry& entry);
-  void read_bodies(const std::string& path, const TomlEntry& entry);
+  Scene scene(ProblemLines& problems) const;
+  void set_entry(const std::string& path, TomlEntry& entry);
+  void read_bodies(const std::string& path, TomlEntry& entry);
   void add_unread(const std::string& origin, const std::string& key, const std::string& reason);
   void set_recoiling_wall(Scene& scene) const;
   void set_shutter(View& view) const;

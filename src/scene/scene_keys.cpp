@@ -278,6 +278,26 @@ constexpr auto kKeys = std::to_array<SceneKey>({
 
 std::span<const SceneKey> scene_keys() { return kKeys; }
 
+const SceneKey* find_scene_key(std::string_view name) {
+  const auto* const found = std::ranges::find(kKeys, name, &SceneKey::name);
+  return found == kKeys.end() ? nullptr : found;
+}
+
+std::span<const KeysOfOneValue> keys_of_one_value() {
+  static const std::array<KeysOfOneValue, 4> kAlike = {
+      {{"the speed", {"time.speed", "time.duration"}},
+       {"the mass of red", {"digits", "mass-ratio", "red.mass"}},
+       {"the restitution of the blocks", {"restitution", "blocks.restitution"}},
+       {"the restitution of the wall", {"restitution", "wall.restitution"}}}};
+  return kAlike;
+}
+
+bool set_same_value(std::string_view one, std::string_view other) {
+  return one == other || std::ranges::any_of(keys_of_one_value(), [&](const KeysOfOneValue& of) {
+           return std::ranges::count(of.keys, one) > 0 && std::ranges::count(of.keys, other) > 0;
+         });
+}
+
 bool is_short_key(std::string_view key) {
   return (key.starts_with("blue.") || key.starts_with("red.") || key.starts_with("wall.")) &&
          !key.ends_with(".restitution");
@@ -320,9 +340,9 @@ std::string joined(const Values& values) {
                                       : fmt::format("[{}]", fmt::join(values, ", ")));
 }
 
-std::string exact_item(std::string_view key, const std::string& text) {
-  const auto* const found = std::ranges::find(kKeys, key, &SceneKey::name);
-  if (found == kKeys.end()) return text;
+std::string normalized_item(std::string_view key, const std::string& text) {
+  const SceneKey* const found = find_scene_key(key);
+  if (found == nullptr) return text;
   try {
     Scene scene;
     found->set(scene, {text});
@@ -333,10 +353,10 @@ std::string exact_item(std::string_view key, const std::string& text) {
   }
 }
 
-Problem unread(const std::string& key, const Values& values, const std::exception& error) {
+Problem problem_of_text(const std::string& key, const Values& values, const std::exception& error) {
   return {.key = key,
           .reason = fmt::format("= {}: {}", joined(values), error.what()),
-          .is_unread = true};
+          .means_nothing = true};
 }
 
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {

@@ -25,6 +25,17 @@ struct SceneKey {
 };
 
 std::span<const SceneKey> scene_keys();
+/// Nothing if there is no such key.
+const SceneKey* find_scene_key(std::string_view name);
+
+/// Keys that set the same value, of which a table may have only one.
+struct KeysOfOneValue {
+  const char* value;  ///< in messages
+  std::vector<std::string> keys;
+};
+std::span<const KeysOfOneValue> keys_of_one_value();
+/// Whether two keys are one, or set the same value.
+bool set_same_value(std::string_view one, std::string_view other);
 
 /// Whether the key is of blue, red or their wall.
 bool is_short_key(std::string_view key);
@@ -45,10 +56,10 @@ bool parse_bool(const Values& values);
 std::string joined(const Values& values);
 
 /// A text of a list as the key's get() gives it; the text itself if it cannot be read.
-std::string exact_item(std::string_view key, const std::string& text);
+std::string normalized_item(std::string_view key, const std::string& text);
 
 /// What is wrong with texts that mean no value of the key.
-Problem unread(const std::string& key, const Values& values, const std::exception& error);
+Problem problem_of_text(const std::string& key, const Values& values, const std::exception& error);
 
 /// A title, a caption or a line of a card.
 void check_line(const char* key, std::string_view text, SceneProblems& problems);

@@ -116,7 +116,7 @@ class StoryReader {
       return entry.key == "compare" || entry.key == "split" || entry.key == "fade";
     });
     SceneDraft common = film_.next(origin_of(table.line));
-    common.read(path_, keys);
+    common.read(path_, std::move(keys));
     std::vector<SceneDraft> drafts = {common};
     if (const TomlEntry* compare = find(table, "compare")) drafts = compared(*compare, common);
     Scenes scenes;
@@ -154,7 +154,7 @@ class StoryReader {
       target = parse(entry->values);
       origins.emplace(key, origin_of(entry->line));
     } catch (const UsageError& error) {
-      problems_.add(path_, entry->line, unread(key, entry->values, error));
+      problems_.add(path_, entry->line, problem_of_text(key, entry->values, error));
     }
   }
 
@@ -199,12 +199,11 @@ void ScriptBuilder::read_text(const std::string& origin, std::string_view text) 
 
 /// Whether to leave out an entry of the file. Of one that sets two keys, the other one may be kept.
 bool ScriptBuilder::Impl::leave_out(TomlEntry& entry) const {
-  const auto is_out = [&](std::string_view key) { return std::ranges::count(left_out, key) > 0; };
-  constexpr std::array kMass = {"digits", "mass-ratio", "red.mass"};
-  if (std::ranges::count(kMass, entry.key) > 0) return std::ranges::any_of(kMass, is_out);
-  if (is_out(entry.key)) return true;
-  if (entry.key != "restitution")
-    return entry.key.ends_with(".restitution") && is_out("restitution");
+  const auto is_out = [&](std::string_view key) {
+    return std::ranges::any_of(left_out,
+                               [&](const std::string& out) { return set_same_value(out, key); });
+  };
+  if (entry.key != "restitution") return is_out(entry.key);
   const bool keeps_blocks = !is_out("blocks.restitution");
   const bool keeps_wall = !is_out("wall.restitution");
   if (keeps_blocks != keeps_wall)
@@ -218,7 +217,9 @@ bool ScriptBuilder::Impl::leave_out_items(const std::string& key, Values& values
   for (const auto& one : left_out_items) {
     if (one.first != key) continue;
     values = list_of(values);
-    const auto is_it = [&](const std::string& text) { return exact_item(key, text) == one.second; };
+    const auto is_it = [&](const std::string& text) {
+      return normalized_item(key, text) == one.second;
+    };
     is_changed |= std::erase_if(values, is_it) > 0;
   }
   if (!is_changed || !values.empty()) return false;
@@ -241,7 +242,7 @@ void ScriptBuilder::Impl::read(const std::string& origin, TomlTable root) {
       common.entries.push_back(std::move(entry));
     }
   }
-  film.read(path, common);
+  film.read(path, std::move(common));
   if (parts.size() > kMaxSegments) {
     problems.add(path, parts[kMaxSegments].line,
                  {"part", fmt::format(": there must be at most {} of them", kMaxSegments)});
@@ -250,7 +251,7 @@ void ScriptBuilder::Impl::read(const std::string& origin, TomlTable root) {
 }
 
 void ScriptBuilder::leave_out(const std::string& key) {
-  if (number_in(key, "body ") > 0) return impl_->film.leave_out_of_bodies(key);
+  if (number_in(key, "body ") > 0) return impl_->film.leave_out_body_key(key);
   impl_->left_out.push_back(key);
 }
 

@@ -107,15 +107,16 @@ std::vector<Problem> problems_of(const Segment& segment, bool is_first) {
   return problems.take();
 }
 
-std::vector<std::string> problems_of(const Storyboard& story) {
-  std::vector<std::string> problems;
+std::vector<Problem> problems_of(const Storyboard& story) {
+  std::vector<Problem> problems;
   if (story.segments.empty() || story.segments.size() > kMaxSegments) {
-    problems.push_back(fmt::format("storyboard: must have from 1 to {} parts", kMaxSegments));
+    problems.push_back(
+        {.reason = fmt::format("storyboard: must have from 1 to {} parts", kMaxSegments)});
   }
   const auto add = [&](const std::string& origin, const std::vector<Problem>& more) {
     for (Problem problem : more) {
       problem.origin = origin;
-      problems.push_back(problem.line());
+      problems.push_back(std::move(problem));
     }
   };
   Scene film;

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "core/text.hpp"
+#include "draw/layout.hpp"
 #include "draw/look.hpp"
+#include "draw/stage/stage.hpp"
 #include "scene/body_keys.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
@@ -17,7 +19,6 @@
 #include "scene/shipped_scenes.hpp"
 #include "web/decimals.hpp"
 #include "web/json.hpp"
-#include "web/room.hpp"
 
 namespace piblocks::web {
 namespace {
@@ -25,16 +26,6 @@ namespace {
 Values decimals_of(Values texts) {
   for (std::string& text : texts) text = with_decimals(text);
   return texts;
-}
-
-std::string row_json(const Body& body, const BodyStyle& style, int dimensions) {
-  return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{},)"
-                     R"("path":{}}})",
-                     json_text(body.mass ? decimal_text(*body.mass) : "inf"),
-                     json_texts(decimals_of(coordinates_of(body.position, dimensions))),
-                     json_texts(decimals_of(coordinates_of(body.velocity, dimensions))),
-                     json_text(decimal_text(body.size)), json_text(color_text(style)),
-                     json_text(style.label), style.path);
 }
 
 /// Both ends of the box along an axis.
@@ -51,17 +42,14 @@ std::string box_json(const System& system, std::string_view low, std::string_vie
 std::string bodies_json(const Scene& scene) {
   const System& system = scene.system;
   std::vector<std::string> rows;
-  std::optional<Body> room;
   if (system.bodies.size() <= kMaxBodyRows) {
     for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-      rows.push_back(row_json(system.bodies[i], scene.styles[i], system.dimensions));
+      rows.push_back(body_json(system.bodies[i], scene.styles[i], system.dimensions));
     }
-    room = body_with_room(scene);
   }
-  return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{},"room":{}}})",
+  return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{}}})",
                      system.bodies.size(), system.dimensions, box_json(system, "left", "right", 0),
-                     box_json(system, "lower", "upper", 1), json_array(rows),
-                     room ? row_json(*room, {}, system.dimensions) : "null");
+                     box_json(system, "lower", "upper", 1), json_array(rows));
 }
 
 /// The texts of a key, its numbers as decimals if that means the same value.
@@ -77,10 +65,6 @@ Values readable(const SceneKey& key, const Scene& scene) {
     // A name of a file, for one.
   }
   return exact;
-}
-
-bool is_words(std::string_view key) {
-  return key == "show.title" || key == "show.caption" || key == "show.logo";
 }
 
 /// What else sets the masses.
@@ -103,8 +87,7 @@ std::string keys_json(Scene scene, bool of_film) {
   std::vector<std::pair<std::string, std::string>> keys;
   for (const SceneKey& key : scene_keys()) {
     if (of_film && !is_film_key(key.name)) continue;
-    keys.emplace_back(key.name,
-                      json_texts(is_words(key.name) ? key.get(scene) : readable(key, scene)));
+    keys.emplace_back(key.name, json_texts(readable(key, scene)));
   }
   if (!of_film && has_short_names(scene.system)) add_masses(scene, keys);
   return json_object(keys);
@@ -129,16 +112,14 @@ std::string scene_json(const Scene& scene, const FilmRun& run) {
                      json_texts(notes_of(scene, run)));
 }
 
-std::string stage_json(const FilmRun& run, const LiveScript::Place& place,
-                       const DrawList& picture) {
+/// @param state  of the place that the picture shows
+std::string stage_json(const FilmRun& run, const StateRow& state, const DrawList& picture) {
   const Scene& scene = run.scene();
   if (!has_short_names(scene.system)) return "null";
-  const LineMap& line = run.line().value();
-  const Rational time = time_of(place.instant, run.log());
-  const State state = run.log().state_at(time);
+  const Layout& layout = run.layout();
   std::vector<std::string> blocks;
   for (const std::size_t body : {0U, 1U}) {
-    const Rect rect = line.at(body, state.bodies[body].position[0]);
+    const Rect rect = layout.block_at(body, state.numbers.at(1 + body));  // after the time
     const auto arrow = arrow_in(picture, body, 2);
     blocks.push_back(fmt::format(R"({{"key":"{}","rect":[{},{},{},{}],"arrow":{}}})",
                                  scene.system.bodies[body].name, rect.x, rect.y, rect.width,
@@ -147,10 +128,13 @@ std::string stage_json(const FilmRun& run, const LiveScript::Place& place,
                                                      (*arrow)[1].x, (*arrow)[1].y)
                                        : "null"));
   }
+  const bool has_arrows = scene.show.has(Overlay::velocities);
+  const ArrowLengths lengths(scene.system, layout);
   return fmt::format(R"({{"scale":{},"zero":{},"floor":{},"blocks":{},"arrowScale":{},)"
                      R"("longestArrow":{}}})",
-                     line.scale, line.zero_px, line.floor_px, json_array(blocks), line.px_per_speed,
-                     line.longest_arrow_px);
+                     layout.scale, layout.origin.x, layout.floor_px, json_array(blocks),
+                     has_arrows ? lengths.px_per_speed() : 0,
+                     has_arrows ? lengths.longest_px() : 0);
 }
 
 }  // namespace
@@ -169,6 +153,15 @@ std::optional<int> digits_of(const Rational& ratio, int base) {
   return static_cast<int>(power) + 1;
 }
 
+std::string body_json(const Body& body, const BodyStyle& style, int dimensions) {
+  return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{}}})",
+                     json_text(body.mass ? decimal_text(*body.mass) : "inf"),
+                     json_texts(decimals_of(coordinates_of(body.position, dimensions))),
+                     json_texts(decimals_of(coordinates_of(body.velocity, dimensions))),
+                     json_text(decimal_text(body.size)), json_text(color_text(style)),
+                     json_text(style.label));
+}
+
 std::string facts_json(const LiveScript& live, std::string_view ranges) {
   const auto* const scene = std::get_if<Scene>(&live.script());
   Scene film;
@@ -176,12 +169,14 @@ std::string facts_json(const LiveScript& live, std::string_view ranges) {
   film.sound = sound_of(live.script());
   const View& view = live.view();
   const std::optional<std::int64_t> frames = live.frame_count();
+  const std::vector<Problem>& problems = live.film_problems();
   return fmt::format(
       R"({{"kind":"{}","width":{},"height":{},"rate":[{},{}],"frames":{},"filmProblem":{},)"
       R"("keys":{},"toml":{},"ranges":{}{}{}}})",
       scene == nullptr ? "storyboard" : "scene", view.width_px, view.height_px,
       view.frame_rate.get_num().get_str(), view.frame_rate.get_den().get_str(),
-      frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()),
+      frames ? fmt::format("{}", *frames) : "null",
+      json_text(problems.empty() ? "" : UsageError(problems).what()),
       keys_json(scene ? *scene : film, scene == nullptr), json_text(scene_toml(live.script())),
       ranges, scene ? "," : "", scene ? scene_json(*scene, *live.run()) : "");
 }
@@ -191,10 +186,11 @@ std::string shown_json(const LiveScript& live, const LiveScript::Place& place,
   const auto text_of = [](const std::optional<std::int64_t>& number) {
     return number ? fmt::format("{}", *number) : std::string("null");
   };
-  const std::optional<std::string> state = live.state(place);
+  const std::optional<StateRow> state = live.state(place);
   return fmt::format(R"({{"frame":{},"nearFrame":{},"state":{},"stage":{}}})", text_of(place.frame),
-                     text_of(live.frame_near(place)), state ? json_text(*state) : "null",
-                     live.run() != nullptr ? stage_json(*live.run(), place, picture) : "null");
+                     text_of(live.frame_near(place)),
+                     state ? json_text(live.state_text(*state)) : "null",
+                     state ? stage_json(*live.run(), *state, picture) : "null");
 }
 
 std::string program_json() {
@@ -203,9 +199,12 @@ std::string program_json() {
     scenes.push_back(fmt::format(R"({{"name":{},"summary":{},"text":{}}})", json_text(scene.name),
                                  json_text(scene.summary()), json_text(scene.text)));
   }
-  return fmt::format(R"({{"scenes":{},"themes":{},"overlays":{},"panels":{}}})", json_array(scenes),
-                     json_texts(list_of({theme_names()})), json_texts(list_of({overlay_names()})),
-                     json_texts(list_of({panel_names()})));
+  std::vector<std::string> alike;
+  for (const KeysOfOneValue& of : keys_of_one_value()) alike.push_back(json_texts(of.keys));
+  return fmt::format(R"({{"scenes":{},"themes":{},"overlays":{},"panels":{},"alike":{}}})",
+                     json_array(scenes), json_texts(list_of({theme_names()})),
+                     json_texts(list_of({overlay_names()})), json_texts(list_of({panel_names()})),
+                     json_array(alike));
 }
 
 }  // namespace piblocks::web

@@ -10,6 +10,10 @@
 
 namespace piblocks::web {
 
+/// {"mass":"1","position":["2"],"velocity":["0"],"size":"1","color":"…","label":"…"}: as its table
+/// in a scene file, with decimals.
+std::string body_json(const Body& body, const BodyStyle& style, int dimensions);
+
 /// {"kind":"scene" or "storyboard","width":…,"height":…,"rate":[numerator,denominator],
 ///  "frames":…,"filmProblem":"…","keys":{"…":["…"]},"toml":"…","ranges":RANGES}, and for a scene
 ///  also "hasTurn", "digits" (null unless the mass ratio is that of some digits), "massRatio",
@@ -33,7 +37,8 @@ Rational mass_ratio_of(const Scene& scene);
 /// base.
 std::optional<int> digits_of(const Rational& ratio, int base);
 
-/// {"scenes":[{"name":"…","summary":"…","text":"…"},…],"themes":[…],"overlays":[…],"panels":[…]}
+/// {"scenes":[{"name":"…","summary":"…","text":"…"},…],"themes":[…],"overlays":[…],"panels":[…],
+///  "alike":[["digits","mass-ratio","red.mass"],…]}; keys that are alike set the same value.
 std::string program_json();
 
 /// Most bodies that "bodies" has rows for; of more there is the number alone.

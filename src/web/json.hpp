@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
 #include <utility>
@@ -13,9 +14,7 @@
 namespace piblocks::web {
 
 inline std::string json_array(const std::vector<std::string>& values) {
-  std::string text;
-  for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
-  return '[' + text + ']';
+  return fmt::format("[{}]", fmt::join(values, ","));
 }
 
 inline std::string json_texts(const std::vector<std::string>& values) {

@@ -8,16 +8,15 @@
 #include "media/pixels/rgb24.hpp"
 #include "physics/logs.hpp"
 #include "scene/run_log.hpp"
-#include "scene/run_tables.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks::web {
 namespace {
 
-View view_in(View view, const std::optional<FrameSize>& screen) {
-  if (!screen) return view;
-  view.width_px = screen->width_px;
-  view.height_px = screen->height_px;
+View view_in(View view, const std::optional<FrameSize>& size) {
+  if (!size) return view;
+  view.width_px = size->width_px;
+  view.height_px = size->height_px;
   return view;
 }
 
@@ -76,9 +75,9 @@ void Screen::update(DrawList list) {
   }
 }
 
-LiveScript::LiveScript(Script script, const std::optional<FrameSize>& screen)
+LiveScript::LiveScript(Script script, const std::optional<FrameSize>& picture_size)
     : script_(std::move(script)),
-      view_(view_in(view_of(script_), screen)),
+      view_(view_in(view_of(script_), picture_size)),
       film_(make_film(script_, view_)) {
   if (const auto* const scene = std::get_if<Scene>(&script_)) plan_film(*scene);
 }
@@ -90,7 +89,6 @@ void LiveScript::plan_film(const Scene& scene) {
     film_frames(schedule);
     schedule_ = std::move(schedule);
   } catch (const UsageError& error) {
-    film_problem_ = error.what();
     film_problems_ = error.problems();
   }
 }
@@ -161,11 +159,13 @@ DrawList LiveScript::full_picture(const Place& place) const {
   return is_full ? picture(place) : LiveScript(script_).picture(place);
 }
 
-std::optional<std::string> LiveScript::state(const Place& place) const {
+std::optional<StateRow> LiveScript::state(const Place& place) const {
   if (run() == nullptr) return std::nullopt;
-  const Log& log = run()->log();
-  const StateRow row = state_row(log, time_of(place.instant, log), false);
-  return state_text(state_table(log.system(), false), row);
+  return state_row(run()->log(), time_of(place.instant, run()->log()), false);
+}
+
+std::string LiveScript::state_text(const StateRow& state) const {
+  return piblocks::state_text(state_table(run()->log().system(), false), state);
 }
 
 LiveSound::LiveSound(const Script& script) : film_(script, {FilmUse::audio_only}) {}

@@ -16,6 +16,7 @@
 
 #include "draw/canvas.hpp"
 #include "render/film.hpp"
+#include "scene/run_tables.hpp"
 
 namespace piblocks::web {
 
@@ -51,9 +52,9 @@ class LiveScript {
     Instant instant = {};  ///< of a storyboard a second of its video
   };
 
-  /// @param screen  size of the pictures, else the script's own
+  /// @param picture_size  else the script's own
   /// @throws what commands throw; then nothing has happened.
-  explicit LiveScript(Script script, const std::optional<FrameSize>& screen = {});
+  explicit LiveScript(Script script, const std::optional<FrameSize>& picture_size = {});
 
   /// With its own size.
   const Script& script() const noexcept { return script_; }
@@ -61,12 +62,10 @@ class LiveScript {
   const View& view() const noexcept { return view_; }
   /// Nothing of a storyboard.
   const FilmRun* run() const noexcept { return std::get_if<FilmRun>(&film_); }
-  /// Nothing if the scene has no film: see film_problem().
+  /// Nothing if the scene has no film: see film_problems().
   std::optional<std::int64_t> frame_count() const;
   /// Why the scene has stills alone, such as a span that ends before it begins; empty if it has a
   /// film.
-  const std::string& film_problem() const noexcept { return film_problem_; }
-  /// The same in its parts.
   const std::vector<Problem>& film_problems() const noexcept { return film_problems_; }
 
   /// @param number  what is outside of the film stands for its nearest end.
@@ -82,8 +81,10 @@ class LiveScript {
   DrawList picture(const Place& place) const;
   /// The same in the script's own size.
   DrawList full_picture(const Place& place) const;
-  /// As `piblocks state` prints it; nothing of a storyboard. @throws SimulationError
-  std::optional<std::string> state(const Place& place) const;
+  /// Nothing of a storyboard. @throws SimulationError
+  std::optional<StateRow> state(const Place& place) const;
+  /// As `piblocks state` prints it.
+  std::string state_text(const StateRow& state) const;
 
  private:
   void plan_film(const Scene& scene);
@@ -92,7 +93,6 @@ class LiveScript {
   View view_;
   std::variant<FilmRun, Film> film_;
   std::optional<Schedule> schedule_;  ///< of a scene
-  std::string film_problem_;
   std::vector<Problem> film_problems_;
 };
 

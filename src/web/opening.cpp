@@ -47,8 +47,7 @@ std::optional<FrameSize> size_of(const std::string& text) {
   if (text.empty()) return std::nullopt;
   try {
     Scene scene;
-    std::ranges::find(scene_keys(), std::string_view("view.size"), &SceneKey::name)
-        ->set(scene, {text});
+    find_scene_key("view.size")->set(scene, {text});
     return FrameSize{scene.view.width_px, scene.view.height_px};
   } catch (const UsageError&) {
     return std::nullopt;
@@ -60,6 +59,7 @@ class Opener {
   explicit Opener(const Request& request)
       : request_(request),
         settings_(settings_of(request.settings)),
+        screen_(size_of(request.screen)),
         changed_(settings_.empty() ? std::string() : settings_.back().key) {}
 
   OpenedScript run() {
@@ -67,6 +67,7 @@ class Opener {
       try {
         OpenedScript opening = attempt();
         if (leave_out(opening.live->film_problems())) continue;
+        if (!request_.places.empty()) add_picture(opening);
         opening.left_out = left_out_;
         return opening;
       } catch (const UsageError& error) {
@@ -87,14 +88,13 @@ class Opener {
     Script script = opening.builder->build();
     if (const auto* const scene = std::get_if<Scene>(&script)) show_ = scene->show;
     opening.live = live_of(std::move(script));
-    if (!request_.places.empty()) add_picture(opening);
     return opening;
   }
 
   std::unique_ptr<LiveScript> live_of(Script script) const {
-    if (const std::optional<FrameSize> screen = size_of(request_.screen)) {
+    if (screen_) {
       try {
-        return std::make_unique<LiveScript>(script, screen);
+        return std::make_unique<LiveScript>(script, screen_);
       } catch (const UsageError&) {
         // It does not fit, or is wrong at any size.
       }
@@ -112,7 +112,7 @@ class Opener {
         return show(read_place(live, text));
       } catch (const UsageError& error) {
         if (std::ranges::any_of(error.problems(), [&](const Problem& problem) {
-              return candidate_of(problem).has_value();
+              return what_to_leave_out(problem).has_value();
             })) {
           throw;
         }
@@ -125,14 +125,13 @@ class Opener {
   }
 
   /// What to leave out because of this problem; nothing if that is of no use.
-  std::optional<LeftOut> candidate_of(const Problem& problem) const {
+  std::optional<LeftOut> what_to_leave_out(const Problem& problem) const {
     if (!can_be_left_out(problem)) return std::nullopt;
     LeftOut out = problem.key == "show" ? least_needed(show_) : LeftOut{problem.key, problem.item};
     if (out.item.empty()) out.item = last_of_list(out.key);
-    // Pictures name bodies by their numbers in the scene, messages about texts by those there.
-    if (problem.origin.empty()) out.key = key_in_text(out.key);
     const bool is_of_all = problem.key == "show" && changed_.starts_with("show.");
-    if (is_of_all || are_alike(out.key, changed_) || is_among(hopeless_, out)) return std::nullopt;
+    if (is_of_all || set_same_value(out.key, changed_) || is_among(did_not_help_, out))
+      return std::nullopt;
     out.reason = reason_alone(problem);
     return out;
   }
@@ -142,21 +141,6 @@ class Opener {
     if (key == "show.panels" && !show_.panels.empty()) return exact_text(show_.panels.back());
     const bool has_overlays = show_.overlays && !show_.overlays->empty();
     return key == "show.overlays" && has_overlays ? exact_text(show_.overlays->back()) : "";
-  }
-
-  /// The number that the body has in the text.
-  std::string key_in_text(const std::string& key) const {
-    const std::size_t number = number_in(key, "body ");
-    if (number == 0) return key;
-    std::size_t in_text = 0;
-    for (std::size_t left = number; left > 0;) {
-      ++in_text;
-      const std::string body = fmt::format("body {}", in_text);
-      const bool is_removed = std::ranges::any_of(
-          settings_, [&](const Setting& setting) { return !setting.texts && setting.key == body; });
-      if (!is_removed) --left;
-    }
-    return fmt::format("body {}{}", in_text, key.substr(key.find('.')));
   }
 
   static bool is_among(const std::vector<LeftOut>& list, const LeftOut& one) {
@@ -170,7 +154,7 @@ class Opener {
     bool has_changed = false;
     const std::vector<LeftOut> before = left_out_;
     for (const Problem& problem : problems) {
-      const std::optional<LeftOut> out = candidate_of(problem);
+      const std::optional<LeftOut> out = what_to_leave_out(problem);
       if (!out || left_out_.size() == kMostLeftOut) continue;
       if (is_among(before, *out) && may_fix_end(*out)) {
         has_fixed_end_ = true;
@@ -179,7 +163,8 @@ class Opener {
       } else if (is_among(before, *out) && out->key == "view.theme" && !has_plain_theme_) {
         has_plain_theme_ = true;
       } else if (is_among(before, *out)) {
-        hopeless_.push_back(*out);
+        if (out->key == "view.theme") has_plain_theme_ = false;
+        did_not_help_.push_back(*out);
         std::erase_if(left_out_, [&](const LeftOut& one) { return is_among({*out}, one); });
       } else if (!is_among(left_out_, *out)) {
         left_out_.push_back(*out);
@@ -197,9 +182,10 @@ class Opener {
 
   const Request& request_;
   std::vector<Setting> settings_;
+  std::optional<FrameSize> screen_;
   std::string changed_;  ///< the key that has just been changed
   std::vector<LeftOut> left_out_;
-  std::vector<LeftOut> hopeless_;
+  std::vector<LeftOut> did_not_help_;
   bool has_fixed_end_ = false;
   bool has_plain_theme_ = false;
   Show show_;  ///< of the last attempt
@@ -230,7 +216,7 @@ bool can_be_left_out(const Problem& problem) {
   constexpr std::array<std::string_view, 7> kOthers = {
       "time.from",   "time.to",       "time.slow-motion", "time.ease",
       "time.freeze", "time.duration", "view.theme"};
-  if (problem.is_unread) return false;
+  if (problem.means_nothing) return false;
   const std::string& key = problem.key;
   return key == "show" || key.starts_with("show.") || key.starts_with("golden.") ||
          std::ranges::count(kOthers, key) > 0 || is_body_label(key);
@@ -244,7 +230,7 @@ std::string reason_alone(const Problem& problem) {
   for (const std::string& beginning : beginnings) {
     if (reason.starts_with(beginning)) reason.remove_prefix(beginning.size());
   }
-  // What would help is to leave it out, which has been done.
+  // What would help follows after it, and is to leave it out.
   return std::string(reason.substr(0, reason.find("; ")));
 }
 

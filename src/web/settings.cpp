@@ -4,10 +4,11 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
+#include "core/text.hpp"
 #include "scene/body_keys.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/scene_toml.hpp"
 
 namespace piblocks::web {
@@ -16,7 +17,7 @@ namespace {
 /// Whether the key, or the body that it is a property of, has its default from this line on.
 bool resets(const Setting& setting, const std::string& key) {
   if (setting.texts) return false;
-  return are_alike(setting.key, key) || key.starts_with(setting.key + '.');
+  return set_same_value(setting.key, key) || key.starts_with(setting.key + '.');
 }
 
 bool is_left_out(const std::vector<LeftOut>& left_out, const std::string& key) {
@@ -67,16 +68,6 @@ std::optional<std::string> text_with_wall(std::string_view text,
 
 }  // namespace
 
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    parts.emplace_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 std::vector<Setting> settings_of(std::string_view lines) {
   std::vector<Setting> settings;
   if (lines.size() > kMaxSceneFile_bytes) throw UsageError("page: too many settings");
@@ -88,12 +79,6 @@ std::vector<Setting> settings_of(std::string_view lines) {
     setting.texts = split(std::string_view(line).substr(equals + 1), '\t');
   }
   return settings;
-}
-
-bool are_alike(std::string_view one, std::string_view other) {
-  constexpr std::array<std::string_view, 3> kMass = {"digits", "mass-ratio", "red.mass"};
-  return one == other ||
-         (std::ranges::count(kMass, one) > 0 && std::ranges::count(kMass, other) > 0);
 }
 
 std::unique_ptr<ScriptBuilder> builder_of(std::string_view text,

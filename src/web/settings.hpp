@@ -12,8 +12,6 @@
 
 namespace piblocks::web {
 
-std::vector<std::string> split(std::string_view text, char separator);
-
 /// What the picture does without.
 struct LeftOut {
   std::string key;
@@ -31,11 +29,8 @@ struct Setting {
 /// its default, whatever text and lines before say. @throws UsageError
 std::vector<Setting> settings_of(std::string_view lines);
 
-/// Whether two keys set the same value.
-bool are_alike(std::string_view one, std::string_view other);
-
-/// Reads the text and, over it, the settings. Blue, red and a wall of finite mass are bodies, and
-/// have numbers as such. @throws SceneError if it is too long, or no TOML.
+/// Reads the text and, over it, the settings. If the wall has a finite mass, blue, red and wall
+/// are bodies 1, 2 and 3. @throws SceneError if it is too long, or no TOML.
 std::unique_ptr<ScriptBuilder> builder_of(std::string_view text,
                                           const std::vector<Setting>& settings,
                                           const std::vector<LeftOut>& left_out);

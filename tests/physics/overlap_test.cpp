@@ -32,7 +32,7 @@ std::set<std::pair<std::size_t, std::size_t>> overlapping_pairs(const std::vecto
 /// Of each overlap that is named, both discs.
 std::set<std::pair<std::size_t, std::size_t>> named_pairs(const System& system) {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
-  for (const auto& [key, reason, item, origin, is_unread] : problems_of(system)) {
+  for (const auto& [key, reason, item, origin, means_nothing] : problems_of(system)) {
     const std::string before = "overlaps body ";
     const std::size_t at = reason.find(before);
     EXPECT_NE(at, std::string::npos) << key << ' ' << reason;

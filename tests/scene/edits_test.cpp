@@ -36,9 +36,9 @@ Scene crowd(const std::vector<std::string>& left_out, const std::vector<Edit>& e
 /// Origin, key and reason of each problem.
 std::vector<std::string> parts(const std::vector<Problem>& problems) {
   std::vector<std::string> texts;
-  for (const auto& [key, reason, item, origin, is_unread] : problems) {
+  for (const auto& [key, reason, item, origin, means_nothing] : problems) {
     texts.push_back(origin + " | " + key + " | " + reason + (item.empty() ? "" : " | " + item) +
-                    (is_unread ? " | unread" : ""));
+                    (means_nothing ? " | unread" : ""));
   }
   return texts;
 }
@@ -103,16 +103,36 @@ TEST(BodyEdits, ProblemsNameTheBodyOfTheFile) {
               crowd({}, {{"body 4.mass", {"2"}}});
             }).front(),
             "body 4 | body 4.position | : is missing");
-  EXPECT_EQ(problems_of([] {
-              crowd({}, {{"body 5.mass", {"2"}}});
-            }),
-            Texts{"body 5.mass | body 5.mass | = 2: there are 3 bodies | unread"});
+  EXPECT_EQ(
+      problems_of([] {
+        crowd({}, {{"body 5.mass", {"2"}}});
+      }),
+      Texts{
+          "body 5.mass | body 5.mass | = 2: there are 3 bodies; the next one is body 4 | unread"});
   EXPECT_EQ(problems_of([] {
               crowd({"body 1", "body 2", "body 3"}, {});
             }).front(),
-            "scene | body 3 | : is the only one, and stays");
+            "scene | body 3 | : cannot be removed: a scene needs a body");
   // A value that is set right again leaves no problem.
   crowd({}, {{"body 2.width", {"x"}}, {"body 2.width", {"1/2"}}});
+  // Another value leaves this one.
+  EXPECT_EQ(problems_of([] {
+              crowd({}, {{"body 9.mass", {"2"}}, {"body 2.mass", {"x"}}, {"body 1.mass", {"2"}}});
+            }).size(),
+            2U);
+  EXPECT_EQ(problems_of([] { crowd({}, {{"body one.mass", {"2"}}}); }).size(), 1U);
+}
+
+TEST(BodyEdits, LabelsOfAPartAreLeftOutOfItAlone) {
+  ScriptBuilder builder;
+  builder.leave_out("body 1.label");
+  builder.read_text("scene", kCrowd +
+                                 "[[part]]\n[[part]]\n[[part.body]]\nposition = 3\n"
+                                 "label = \"its own\"\n");
+  const auto story = std::get<Storyboard>(builder.build());
+  ASSERT_EQ(story.segments.size(), 2U);
+  EXPECT_EQ(std::get<Scenes>(story.segments[0].content)[0].styles[0].label, "");
+  EXPECT_EQ(std::get<Scenes>(story.segments[1].content)[0].styles[0].label, "its own");
 }
 
 TEST(BodyEdits, OfDiscs) {

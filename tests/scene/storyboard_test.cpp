@@ -265,7 +265,7 @@ TEST(Storyboard, ProblemsOfOneMadeByHandAreToldAtOnce) {
   const auto found = problems_of(story);
   // The frame, as the film's and as the last part's; fade and no run; fade and no line; an empty
   // line and no time; a line that is not UTF-8.
-  EXPECT_EQ(found.size(), 9U) << testing::PrintToString(found);
+  EXPECT_EQ(found.size(), 9U) << UsageError(found).what();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/text.hpp"
 #include "scene/shipped_scenes.hpp"
 #include "support/contains.hpp"
 #include "support/script_of.hpp"
@@ -102,7 +103,7 @@ TEST(Open, GivesAnEndToRunsThatHaveNone) {
   EXPECT_EQ(scene_of(past).time.from.offset, 0);
   // Who asks for an end that there is not is told so.
   const OpenedScript asked = open(kLecture + "red.velocity = 2\n", "time.to=last+2");
-  EXPECT_NE(asked.live->film_problem(), "");
+  EXPECT_FALSE(asked.live->film_problems().empty());
 }
 
 TEST(Open, LeavesOutWhatHasNoRoom) {
@@ -233,7 +234,7 @@ TEST(Choices, AreThoseThatCanBeAdded) {
   EXPECT_FALSE(contains(choices, R"("count":)"));
   EXPECT_FALSE(contains(choices, R"("time":)"));
   EXPECT_EQ(choices_json(*open("[[part]]\ncard = [\"A\"]\n").live),
-            R"({"show.panels":{},"show.overlays":{}})");
+            R"({"show.panels":{},"show.overlays":{},"room":null})");
 }
 
 TEST(Choices, AgreeWithOpening) {

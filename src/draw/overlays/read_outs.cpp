@@ -341,11 +341,13 @@ ReadOutRows::ReadOutRows(const LayoutContext& context)
   const auto widest = std::ranges::max_element(widths);
   if (*widest > room_px) {
     const std::string name = read_outs[std::size_t(widest - widths.begin())].name;
+    const bool is_overlay = std::ranges::any_of(
+        overlays_of(context.scene), [&](Overlay overlay) { return exact_text(overlay) == name; });
     throw UsageError("show.overlays",
                      fmt::format("'{}' cannot be read in {:.0f} pixels; leave it out, or make "
                                  "the frame wider",
                                  name, room_px),
-                     name);
+                     is_overlay ? name : "");
   }
   const double gap = kBetweenReadOuts * text_px_;
   std::size_t first = 0;

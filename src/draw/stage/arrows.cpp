@@ -289,17 +289,6 @@ double ArrowLengths::px_per_speed() const {
   return std::isfinite(scale) ? scale : 0;
 }
 
-LineMap line_map(const DrawingContext& context) {
-  const Layout& layout = context.layout;
-  LineMap map{layout.scale, layout.origin.x, layout.floor_px};
-  for (const auto& [width, height_px] : layout.shapes) map.blocks.push_back({width, height_px});
-  if (!context.scene.show.has(Overlay::velocities)) return map;
-  const ArrowLengths lengths(context.scene.system, layout);
-  map.px_per_speed = lengths.px_per_speed();
-  map.longest_arrow_px = lengths.longest_px();
-  return map;
-}
-
 std::optional<std::array<Point, 2>> arrow_in(const DrawList& list, std::size_t block,
                                              std::size_t count) {
   const ItemId id = id_of(block, count);

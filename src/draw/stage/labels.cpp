@@ -208,6 +208,10 @@ std::vector<std::size_t> labelled_beside(const LayoutContext& context, const Lay
   return found;
 }
 
+std::string label_key(const DrawingContext& context, std::size_t body) {
+  return body_key(context.scene.system, body) + ".label";
+}
+
 [[noreturn]] void throw_no_room(const DrawingContext& context, const BlockTexts& texts,
                                 std::size_t body) {
   const Layout& layout = context.layout;
@@ -223,7 +227,7 @@ std::vector<std::size_t> labelled_beside(const LayoutContext& context, const Lay
         exact_text(Overlay::masses));
   }
   throw UsageError(
-      fmt::format("body {}.label", body + 1),
+      label_key(context, body),
       fmt::format("'{}' does not fit on {}; use a shorter one, make the block or the frame larger, "
                   "or show less of the x axis",
                   text, place));
@@ -244,7 +248,7 @@ void check_room(const DrawingContext& context, const BlockTexts& texts, std::siz
   const double needed = label_room_px(context.sizes);
   if (context.layout.above_px + kRounded_px >= needed) return;
   throw UsageError(
-      "show.overlays",
+      texts.is_mass(body) ? "show.overlays" : label_key(context, body),
       fmt::format("the {} '{}' needs {:.0f} pixels above its block, and there are {:.0f}; leave "
                   "out {}, or make the block wider or the frame higher",
                   texts.is_mass(body) ? "mass" : "label", texts.text(body), needed,

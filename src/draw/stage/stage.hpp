@@ -2,12 +2,13 @@
 // In: a drawing context with its layout. Out: drawables, and what the loupe is made of too.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "draw/layout.hpp"
-#include "draw/stage/line_map.hpp"
 
 namespace piblocks {
 
@@ -86,6 +87,10 @@ double label_room_below_px(const Sizes& sizes);
 /// @throws UsageError if the view has no room above the blocks.
 Drawable velocity_arrows(const DrawingContext& context);
 
+/// Tail and tip of the arrow above a block, one of so many, in a picture; nothing without it.
+std::optional<std::array<Point, 2>> arrow_in(const DrawList& list, std::size_t block,
+                                             std::size_t count);
+
 /// How long these arrows are.
 class ArrowLengths {
  public:
@@ -94,16 +99,13 @@ class ArrowLengths {
   /// Negative to the left.
   double length_px(double velocity) const;
   double longest_px() const noexcept { return longest_px_; }
-  /// The length at small velocities; 0 where nothing moves.
+  /// Near 0, an arrow grows by so many pixels per unit of velocity; 0 where nothing moves.
   double px_per_speed() const;
 
  private:
   mpf_class usual_speed_ = 0;
   double longest_px_ = 0;
 };
-
-/// The map of a line's layout.
-LineMap line_map(const DrawingContext& context);
 
 /// Room that the scene's overlays need above the tallest block, in pixels.
 double room_above_px(const LayoutContext& context, const Layout& layout);

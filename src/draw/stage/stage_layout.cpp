@@ -122,11 +122,11 @@ Layout lay_out_line(const LayoutContext& context, const FramePlan& plan) {
   return layout;
 }
 
-void check_radius(double radius_px, std::size_t number) {
+void check_radius(double radius_px, const System& system, std::size_t body) {
   constexpr double kMost_px = 0.9 * kFar_px;  // with its line, and far from the picture
   if (radius_px <= kMost_px) return;
   throw UsageError(
-      fmt::format("body {}.radius", number),
+      body_key(system, body) + ".radius",
       fmt::format("is {:.4g} pixels, and at most {:.2g} can be painted; make it smaller, show more "
                   "of the plane, or use a wall",
                   radius_px, kMost_px));
@@ -167,7 +167,7 @@ Layout lay_out_plane(const LayoutContext& context, const Rect& area) {
         context.scene.styles[i].path ? style::kPresentDot * sizes.short_side : 0;
     const double radius_px = std::max(least_px, to_double(system.bodies[i].size) * layout.scale);
     layout.shapes.push_back({2 * radius_px / layout.scale, 2 * radius_px});
-    check_radius(radius_px, i + 1);
+    check_radius(radius_px, system, i);
   }
   return layout;
 }

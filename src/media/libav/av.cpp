@@ -1,6 +1,5 @@
 #include "media/libav/av.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gif_lib.h>
 #include <piblocks/error.hpp>
@@ -29,18 +28,11 @@ int is_stop_requested(void* stop) {
   return static_cast<const std::stop_token*>(stop)->stop_requested() ? 1 : 0;
 }
 
-/// @throws MediaError if it is null, the answer of the dynamic linker
-void* checked(void* found) {
-  if (found != nullptr) return found;
-  throw MediaError(fmt::format("video: cannot load libavformat: {}; reinstall it", ::dlerror()));
-}
-
 }  // namespace
 
 void* avformat_function(const char* name) {
-  // Loaded once, and kept: its functions are called until the program ends.
-  void* const library = checked(::dlopen(PIBLOCKS_AVFORMAT_FILE, RTLD_NOW | RTLD_LOCAL));
-  return checked(::dlsym(library, name));
+  if (void* const found = find_in_library(PIBLOCKS_AVFORMAT_FILE, name)) return found;
+  throw MediaError(fmt::format("video: cannot load libavformat: {}; reinstall it", ::dlerror()));
 }
 
 AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {

@@ -163,7 +163,7 @@ async function updateChoices() {
   const choices = await session.choices().catch(() => ({}));
   if (facts !== session.facts) return;
   fields.disable(choices);
-  bodies.setRoom(choices.room ?? session.facts.bodies?.room);
+  bodies.setRoom(choices.room);
   document.body.dataset.hasChoices = "true";
 }
 
