@@ -50,11 +50,13 @@ Scalar share_of_change(const std::optional<Scalar>& own, const std::optional<Sca
 
 /// By how much a collision without friction changes a body's velocity along the line of centres,
 /// away from the other body (Landau & Lifshitz, Mechanics, section 17).
-/// @param closing  the speed at which the two approach each other
-/// @param share    share_of_change() of this body
+/// @param closing      the speed at which the two approach each other
+/// @param share        share_of_change() of this body
+/// @param restitution  the share of that speed with which they part, 0 … 1
 template <typename Scalar>
-Scalar velocity_change(const Scalar& closing, const Scalar& share) {
-  return Scalar(Scalar(2) * closing * share);
+Scalar velocity_change(const Scalar& closing, const Scalar& share,
+                       const Scalar& restitution = Scalar(1)) {
+  return Scalar(Scalar(1 + restitution) * closing * share);
 }
 
 /// The place of a pair among all that meet at one instant: pairs of movable bodies come first, then

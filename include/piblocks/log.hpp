@@ -31,7 +31,7 @@ struct Collision {
   std::uint32_t first = 0;   ///< place of a body in System::bodies
   std::uint32_t second = 0;  ///< of another, > first; or bodies.size() and the place of a wall
   Motion first_after = {};
-  Motion second_after = {};  ///< of a wall: where it is, and no velocity
+  Motion second_after = {};  ///< of a wall: where its point is, and its velocity
 };
 
 /// A place on a body's way.
@@ -44,6 +44,20 @@ struct PathPoint {
 struct State {
   Integer count;  ///< index of the last collision until then
   std::vector<Motion> bodies;
+  bool is_infinite = false;  ///< there were infinitely many; the count is of those in the log
+};
+
+/// Infinitely many collisions, in which some bodies lose all speed relative to each other.
+struct Collapse {
+  /// When that is, as the nearest two doubles; nothing if the collisions, each later than the one
+  /// before by more, never end.
+  std::optional<Time> time;
+  /// Collisions in the log, Log::last(). Two blocks beside something immovable rest from the last
+  /// of them on; each collision that is not in it begins with less than 2^-200 of the energy, or
+  /// less than 2^-100 of the time between the first collision and `time` remains.
+  Integer listed;
+  /// That collapse, in the order of their numbers. Walls come after bodies, as in Collision.
+  std::vector<std::uint32_t> bodies = {};
 };
 
 /// On a line, collisions are computed in rational numbers while none of these has more bits, and
@@ -136,6 +150,13 @@ class Log {
   virtual std::optional<double> certain_until(const std::optional<Rational>& time) const = 0;
   /// Whether all collisions are certain, at any time. The call does not step the run.
   virtual bool is_always_certain() const noexcept { return false; }
+
+  /// The first collapse until `until`; without a time, of the whole run, or until the horizon.
+  /// Nothing if there is none. Of a run that is stepped the log ends with it, and nothing that
+  /// follows is certain.
+  virtual std::optional<Collapse> collapse(const std::optional<Rational>& /*until*/) const {
+    return std::nullopt;
+  }
 
   /// As count_at(), except that collisions within the rounding of `time` and of the engine may
   /// count as earlier or later. For two blocks, more collisions cost no more.

@@ -21,16 +21,20 @@ using ExactVector = std::array<Rational, 2>;
 struct Body {
   std::optional<Rational> mass = 1;  ///< > 0; nothing for a body that no collision moves
   ExactVector position = {};         ///< of the centre, at time 0
-  ExactVector velocity = {};         ///< at time 0; 0 for a body without mass
+  ExactVector velocity = {};         ///< at time 0; without mass at all times
   Rational size = 1;                 ///< > 0; the width of a block, the radius of a disc
   std::string name = {};             ///< in keys and messages, as "blue"; else its number
+  /// In place of the system's coefficients, 0 … 1. See restitution_of().
+  std::optional<Rational> restitution = {};
 };
 
 /// A straight wall that no collision moves. Bodies are on the side to which the normal points.
 struct Wall {
   std::string name;    ///< in logs and messages, as "left"
-  ExactVector point;   ///< on the wall
+  ExactVector point;   ///< on the wall, at time 0
   ExactVector normal;  ///< not 0, of any length
+  ExactVector velocity = {};
+  std::optional<Rational> restitution = {};  ///< as of a Body
 };
 
 /// Bodies do not overlap each other nor the walls. Touching is allowed.
@@ -39,16 +43,21 @@ struct System {
   std::vector<Body> bodies = {};
   std::vector<Wall> walls = {};
   /// Coefficients of restitution: what share of the speed at which two bodies approach each other
-  /// they have when they part; 0 (they stay together) … 1 (elastic). Less than 1 only where there
-  /// are two blocks beside something immovable.
-  Rational restitution = 1;
+  /// they have when they part; 0 (they stay together) … 1 (elastic).
+  Rational restitution = 1;       ///< of two bodies that collisions move
   Rational wall_restitution = 1;  ///< of a body and something immovable
 };
 
-/// Whether collisions keep the energy.
-inline bool is_elastic(const System& system) {
-  return system.restitution == 1 && system.wall_restitution == 1;
-}
+/// The coefficient of restitution of two that meet: the lower one of both. A body or a wall without
+/// its own has that of the system for their kind.
+/// @param first, second  as of Collision
+Rational restitution_of(const System& system, std::size_t first, std::size_t second);
+
+/// Whether all collisions keep the relative speed: all coefficients are 1.
+bool is_elastic(const System& system);
+
+/// Whether something moves that no collision moves, such as a piston. It gives or takes energy.
+bool is_driven(const System& system);
 
 /// Whether the system is the usual one: blue, red, and a wall on their left. Scene files, tables
 /// and messages then use these names.

@@ -249,19 +249,8 @@ struct Corner {
 /// The corner of a system that has collisions, finitely many, and has them all at once.
 std::optional<Corner> corner_of(const TwoBlocks& system);
 
-/// A run of infinitely many collisions. In the end the blocks have lost all their energy: they rest
-/// at the wall and touch each other. No such run ends in another way.
-struct Collapse {
-  /// When that is, as the nearest two doubles; nothing if the collisions, each later than the one
-  /// before by more, never end.
-  std::optional<Time> time;
-  /// Collisions in the log, Log::last(). The blocks rest from the last of them on. Each
-  /// collision that is not in it begins with less than 2^-200 of the energy, or less than 2^-100 of
-  /// the time between the first collision and `time` remains.
-  Integer listed;
-};
-
-/// The collapse of a system that has one; nothing if its collisions are finitely many.
+/// The collapse of a system that has one; nothing if its collisions are finitely many. In the end
+/// the blocks have lost all their energy: they rest at the wall and touch each other.
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Collapse> collapse_of(const TwoBlocks& system);
 

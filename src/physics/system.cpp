@@ -40,10 +40,6 @@ void check_body(const System& system, std::size_t index, bool is_pair, SceneProb
   if (body.mass) {
     problems.require_positive(key("mass"), *body.mass);
     if (!is_pair) problems.require_finite(key("mass"), *body.mass);
-  } else {
-    problems.require(body.velocity[0] == 0 && body.velocity[1] == 0, key("velocity"),
-                     "= [{}, {}]: a body of infinite mass must be at rest", body.velocity[0],
-                     body.velocity[1]);
   }
   problems.require_positive(key(size), body.size);
   problems.require_finite(key(size), body.size);
@@ -233,19 +229,22 @@ void check_dimensions(const System& system, SceneProblems& problems) {
   }
 }
 
-void check_restitution(const System& system, bool is_pair, SceneProblems& problems) {
-  for (const auto& [key, value] : {std::pair("blocks.restitution", system.restitution),
-                                   std::pair("wall.restitution", system.wall_restitution)}) {
+void check_restitution(const System& system, SceneProblems& problems) {
+  const auto check = [&](const std::string& key, const Rational& value) {
     problems.require(value >= 0 && value <= 1, key,
                      "= {}: must be from 0 (no rebound) to 1 (elastic)", value);
+  };
+  check("blocks.restitution", system.restitution);
+  check("wall.restitution", system.wall_restitution);
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    if (const auto& own = system.bodies[i].restitution)
+      check(key_of(system, i, "restitution"), *own);
   }
-  const bool is_both = system.restitution == system.wall_restitution;
-  const char* const key = is_both                  ? "restitution"
-                          : system.restitution < 1 ? "blocks.restitution"
-                                                   : "wall.restitution";
-  problems.require(is_pair || is_elastic(system), key,
-                   "is less than 1, which needs two blocks beside one wall or fixed block, and no "
-                   "more; leave it out");
+  for (std::size_t i = 0; i < system.walls.size(); ++i) {
+    if (const auto& own = system.walls[i].restitution) {
+      check(fmt::format("wall {}.restitution", i + 1), *own);
+    }
+  }
 }
 
 }  // namespace
@@ -261,7 +260,7 @@ std::vector<Problem> problems_of(const System& system) {
   check_dimensions(system, problems);
   const bool is_pair = two_blocks_of(system).has_value();
   for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, is_pair, problems);
-  check_restitution(system, is_pair, problems);
+  check_restitution(system, problems);
   const bool can_move =
       std::ranges::any_of(system.bodies, [](const Body& body) { return body.mass.has_value(); });
   problems.require(can_move, "body", "all have infinite mass: nothing can move");
@@ -319,10 +318,37 @@ std::string body_key(const System& system, std::size_t body) {
 }
 
 bool has_short_names(const System& system) {
-  const auto& [dimensions, bodies, walls, restitution, wall_restitution] = system;
-  return dimensions == 1 && bodies.size() == 2 && walls.size() == 1 && bodies[0].name == "blue" &&
-         bodies[1].name == "red" && bodies[0].mass && bodies[1].mass && walls[0].name == "wall" &&
-         walls[0].normal[0] > 0;
+  const std::vector<Body>& bodies = system.bodies;
+  const std::vector<Wall>& walls = system.walls;
+  return system.dimensions == 1 && bodies.size() == 2 && walls.size() == 1 &&
+         bodies[0].name == "blue" && bodies[1].name == "red" && bodies[0].mass && bodies[1].mass &&
+         walls[0].name == "wall" && walls[0].normal[0] > 0 && walls[0].velocity[0] == 0;
+}
+
+Rational restitution_of(const System& system, std::size_t first, std::size_t second) {
+  const std::size_t count = system.bodies.size();
+  const auto is_movable = [&](std::size_t id) { return id < count && system.bodies[id].mass; };
+  const bool has_immovable = !is_movable(first) || !is_movable(second);
+  const Rational& usual = has_immovable ? system.wall_restitution : system.restitution;
+  const auto own = [&](std::size_t id) -> const Rational& {
+    const auto& value =
+        id < count ? system.bodies[id].restitution : system.walls[id - count].restitution;
+    return value ? *value : usual;
+  };
+  return std::min(own(first), own(second));
+}
+
+bool is_elastic(const System& system) {
+  const auto keeps = [](const auto& one) { return !one.restitution || *one.restitution == 1; };
+  return system.restitution == 1 && system.wall_restitution == 1 &&
+         std::ranges::all_of(system.bodies, keeps) && std::ranges::all_of(system.walls, keeps);
+}
+
+bool is_driven(const System& system) {
+  const auto moves = [](const auto& one) { return one.velocity[0] != 0 || one.velocity[1] != 0; };
+  return std::ranges::any_of(system.walls, moves) ||
+         std::ranges::any_of(system.bodies,
+                             [&](const Body& body) { return !body.mass && moves(body); });
 }
 
 }  // namespace piblocks

@@ -22,8 +22,8 @@ TwoBlocks two_blocks_from(const System& system, const LineElement& wall, const L
   return {.wall_face = side * wall.position + wall.half_width,
           .blue = block_of(blue, side),
           .red = block_of(red, side),
-          .blocks_restitution = system.restitution,
-          .wall_restitution = system.wall_restitution,
+          .blocks_restitution = restitution_of(system, blue.id, red.id),
+          .wall_restitution = restitution_of(system, blue.id, wall.id),
           .blue_id = blue.id,
           .red_id = red.id,
           .wall_id = wall.id,
@@ -53,6 +53,7 @@ std::optional<TwoBlocks> two_blocks_of(const System& system) {
   const LineElement& left = elements[0];
   const LineElement& middle = elements[1];
   const LineElement& right = elements[2];
+  if (is_driven(system)) return std::nullopt;
   if (!left.mass && right.mass) return two_blocks_from(system, left, middle, right, 1);
   if (!right.mass && left.mass) return two_blocks_from(system, right, middle, left, -1);
   return std::nullopt;
