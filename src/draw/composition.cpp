@@ -103,6 +103,7 @@ class Composer {
   /// Walls, floor and bodies, what is over them, and the count.
   void add_stage() {
     add(unchanging(stage_walls(context_)));
+    if (auto walls = moving_walls(context_)) add(std::move(*walls));
     if (loupe_) {
       add({[loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
         loupe->add_lines(shown, items);

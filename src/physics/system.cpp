@@ -344,11 +344,14 @@ bool is_elastic(const System& system) {
          std::ranges::all_of(system.bodies, keeps) && std::ranges::all_of(system.walls, keeps);
 }
 
+bool is_moving(const Wall& wall) { return wall.velocity[0] != 0 || wall.velocity[1] != 0; }
+
 bool is_driven(const System& system) {
-  const auto moves = [](const auto& one) { return one.velocity[0] != 0 || one.velocity[1] != 0; };
-  return std::ranges::any_of(system.walls, moves) ||
-         std::ranges::any_of(system.bodies,
-                             [&](const Body& body) { return !body.mass && moves(body); });
+  const auto is_moving_body = [](const Body& body) {
+    return !body.mass && (body.velocity[0] != 0 || body.velocity[1] != 0);
+  };
+  return std::ranges::any_of(system.walls, is_moving) ||
+         std::ranges::any_of(system.bodies, is_moving_body);
 }
 
 }  // namespace piblocks

@@ -57,6 +57,10 @@ constexpr auto kBodyKeys = std::to_array<BodyKey>({
      [](ReadBody& body, const Values& values) { body.body.position = parse_vector(values, body); }},
     {"velocity",
      [](ReadBody& body, const Values& values) { body.body.velocity = parse_vector(values, body); }},
+    {"restitution",
+     [](ReadBody& body, const Values& values) {
+       body.body.restitution = parse_restitution(values);
+     }},
     {"width",
      [](ReadBody& body, const Values& values) {
        body.body.size = parse_rational(single(values));
@@ -74,14 +78,32 @@ constexpr auto kBodyKeys = std::to_array<BodyKey>({
     {"path", [](ReadBody& body, const Values& values) { body.style.path = parse_bool(values); }},
 });
 
-std::vector<std::string> names_of(std::span<const BodyKey> keys) {
+ExactVector parse_pair(const Values& values) {
+  if (values.size() != 2) throw UsageError("must be two numbers, as [0, 1]");
+  return {parse_rational(values[0]), parse_rational(values[1])};
+}
+
+struct WallKey {
+  const char* name;
+  void (*set)(Wall& wall, const Values& values);
+};
+
+constexpr auto kWallKeys = std::to_array<WallKey>({
+    {"point", [](Wall& wall, const Values& values) { wall.point = parse_pair(values); }},
+    {"normal", [](Wall& wall, const Values& values) { wall.normal = parse_pair(values); }},
+    {"velocity", [](Wall& wall, const Values& values) { wall.velocity = parse_pair(values); }},
+    {"restitution",
+     [](Wall& wall, const Values& values) { wall.restitution = parse_restitution(values); }},
+});
+
+std::vector<std::string> names_of(const auto& keys) {
   std::vector<std::string> names;
-  for (const BodyKey& key : keys) names.emplace_back(key.name);
+  for (const auto& key : keys) names.emplace_back(key.name);
   return names;
 }
 
 /// @param axis  0 for x, 1 for y
-void add_walls(const std::optional<BoxSide>& side, std::size_t axis,
+void add_walls(const std::optional<BoxSide>& side, const BoxVelocity& velocity, std::size_t axis,
                const std::array<const char*, 2>& names, std::vector<Wall>& walls) {
   if (!side) return;
   const std::array ends = {side->low, side->high};
@@ -90,12 +112,17 @@ void add_walls(const std::optional<BoxSide>& side, std::size_t axis,
     Wall wall{names.at(end), {}, {}};
     wall.point.at(axis) = *ends.at(end);
     wall.normal.at(axis) = end == 0 ? 1 : -1;
+    wall.velocity.at(axis) = velocity.at(end);
     walls.push_back(std::move(wall));
   }
 }
 
 std::string text_of(const ExactVector& vector) {
   return fmt::format("[{}, {}]", vector[0].get_str(), vector[1].get_str());
+}
+
+std::string restitution_text(const std::optional<Rational>& restitution) {
+  return restitution ? ", restitution " + restitution->get_str() : "";
 }
 
 /// The body that a table describes. @param add  takes line and property of what is wrong
@@ -126,6 +153,19 @@ ReadBody read_properties(
 }
 
 }  // namespace
+
+Rational parse_restitution(const Values& values) {
+  Rational share = parse_rational(single(values));
+  if (share < 0 || share > 1) {
+    throw UsageError("must be from 0 (no rebound) to 1 (elastic)");
+  }
+  return share;
+}
+
+BoxVelocity parse_box_velocity(const Values& values) {
+  const ExactVector ends = parse_pair(values);
+  return {ends[0], ends[1]};
+}
 
 BoxSide parse_box_side(const Values& values) {
   if (values.size() != 2) throw UsageError("must be two numbers, as [0, 10]; \"inf\" is no wall");
@@ -239,19 +279,18 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
     std::size_t found = 0;
     bool is_read = true;
     for (const TomlEntry& entry : table.entries) {
-      const bool is_point = entry.key == "point";
-      if (!is_point && entry.key != "normal") {
+      const auto* const key =
+          std::ranges::find(kWallKeys, std::string_view(entry.key), &WallKey::name);
+      if (key == kWallKeys.end()) {
         problems.add(
             path, entry.line,
             {"wall." + entry.key,
-             fmt::format(": unknown key{}", did_you_mean(entry.key, {"point", "normal"}))});
+             fmt::format(": unknown key{}", did_you_mean(entry.key, names_of(kWallKeys)))});
         continue;
       }
-      ++found;
+      if (entry.key == "point" || entry.key == "normal") ++found;
       try {
-        if (entry.values.size() != 2) throw UsageError("must be two numbers, as [0, 1]");
-        (is_point ? wall.point : wall.normal) =
-            ExactVector{parse_rational(entry.values[0]), parse_rational(entry.values[1])};
+        key->set(wall, entry.values);
       } catch (const UsageError& error) {
         is_read = false;
         problems.add(path, entry.line, problem_of_text("wall." + entry.key, entry.values, error));
@@ -270,9 +309,15 @@ void BodyDraft::put_into(Scene& scene, ProblemLines& problems) const {
   put_bodies_into(scene, problems);
   std::vector<Wall>& walls = scene.system.walls;
   walls.clear();
-  add_walls(x_, 0, {"left", "right"}, walls);
-  add_walls(y_, 1, {"lower", "upper"}, walls);
+  add_walls(x_, velocities_[0], 0, {"left", "right"}, walls);
+  add_walls(y_, velocities_[1], 1, {"lower", "upper"}, walls);
   walls.insert(walls.end(), slanted_.begin(), slanted_.end());
+}
+
+bool BodyDraft::moves_no_wall(std::size_t axis) const {
+  const std::optional<BoxSide>& side = axis == 0 ? x_ : y_;
+  const BoxVelocity& velocity = velocities_.at(axis);
+  return (velocity[0] != 0 && !(side && side->low)) || (velocity[1] != 0 && !(side && side->high));
 }
 
 std::string BodyDraft::origin_of(const std::string& key) const {
@@ -351,10 +396,13 @@ std::vector<std::pair<std::string, std::string>> describe_bodies(const Scene& sc
                                    body.mass ? body.mass->get_str() : "inf", text_of(body.position),
                                    text_of(body.velocity), body.size.get_str(), color_text(style),
                                    style.label, style.path));
+    lines.back().second += restitution_text(body.restitution);
   }
   for (const Wall& wall : system.walls) {
     lines.emplace_back(fmt::format("{} wall", wall.name),
                        fmt::format("{} facing {}", text_of(wall.point), text_of(wall.normal)));
+    if (is_moving(wall)) lines.back().second += ", moving with " + text_of(wall.velocity);
+    lines.back().second += restitution_text(wall.restitution);
   }
   return lines;
 }

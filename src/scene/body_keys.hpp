@@ -4,6 +4,7 @@
 
 #include <piblocks/scene.hpp>
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -16,6 +17,14 @@
 #include "scene/toml_file.hpp"
 
 namespace piblocks {
+
+/// Velocities of both walls of a box along their axis.
+using BoxVelocity = std::array<Rational, 2>;
+/// @throws UsageError unless it is two numbers
+BoxVelocity parse_box_velocity(const Values& values);
+
+/// @throws UsageError unless it is from 0 to 1
+Rational parse_restitution(const Values& values);
 
 /// The ends of a box along one axis. Nothing: there is no wall.
 struct BoxSide {
@@ -43,10 +52,15 @@ class BodyDraft {
   void leave_out_nothing() { left_out_.clear(); }
   void set_box_x(BoxSide side) { x_ = std::move(side); }
   void set_box_y(BoxSide side) { y_ = std::move(side); }
+  void set_box_velocity(std::size_t axis, BoxVelocity velocity) {
+    velocities_.at(axis) = std::move(velocity);
+  }
 
   bool empty() const noexcept { return tables_.empty(); }
   /// Replaces the bodies of a scene, and walls. Adds what is wrong with the texts of bodies.
   void put_into(Scene& scene, ProblemLines& problems) const;
+  /// Whether a velocity is given to an end of the box that is no wall.
+  bool moves_no_wall(std::size_t axis) const;
   bool has_slanted_walls() const noexcept { return !slanted_.empty(); }
   /// File and line of the table for this key of problems_of(), as "body 3.mass"; empty if there is
   /// none.
@@ -64,6 +78,7 @@ class BodyDraft {
   std::map<std::string, std::string> origins_;  // of properties that were set
   std::optional<BoxSide> x_;
   std::optional<BoxSide> y_;
+  std::array<BoxVelocity, 2> velocities_;  // of the walls of both
   std::vector<Wall> slanted_;
   std::vector<std::size_t> slanted_lines_;
 };

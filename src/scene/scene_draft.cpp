@@ -31,14 +31,6 @@ std::optional<Problem> conflict_of(const TomlTable& table, const KeysOfOneValue&
 }
 
 /// Of blocks and wall alike.
-Rational parse_restitution(const Values& values) {
-  Rational share = parse_rational(single(values));
-  if (share < 0 || share > 1) {
-    throw UsageError("must be from 0 (no rebound) to 1 (elastic)");
-  }
-  return share;
-}
-
 int parse_digits(const Values& values) { return parse_int(single(values), 1, kMaxDigits); }
 
 /// Of the lecture themes, unless a scene says otherwise.
@@ -100,12 +92,19 @@ void SceneDraft::read_bodies(const std::string& path, TomlEntry& entry) {
   }
 }
 
-/// @return whether it is a key of the box, or of a wall that recoils
-bool SceneDraft::set_box(const std::string& key, const Values& values) {
+/// @return whether it is a key of the box, or of a wall that recoils, moves or is not there
+bool SceneDraft::set_wall(const std::string& key, const Values& values) {
   if (key == "box.x") {
     bodies_.set_box_x(parse_box_side(values));
   } else if (key == "box.y") {
     bodies_.set_box_y(parse_box_side(values));
+  } else if (key == "box.x-velocity" || key == "box.y-velocity") {
+    bodies_.set_box_velocity(key == "box.x-velocity" ? 0 : 1, parse_box_velocity(values));
+  } else if (key == "wall.velocity") {
+    wall_velocity_ = parse_rational(single(values));
+  } else if (key == "wall.face") {
+    has_wall_ = values != Values{"-inf"};
+    if (has_wall_) find_scene_key(key)->set(scene_, values);
   } else if (key == "wall.mass") {
     std::optional<Rational> mass;
     if (single(values) != "inf") mass = parse_rational(single(values));
@@ -133,7 +132,7 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
   if (key == "mass-ratio") {
     return set_mass_ratio(origin, std::nullopt, parse_rational(single(values), kMaxMassBits));
   }
-  if (set_box(key, values)) {
+  if (set_wall(key, values)) {
     origins_[key] = origin;
     return;
   }
@@ -188,7 +187,7 @@ Scene SceneDraft::scene(ProblemLines& problems) const {
   Body& red = scene.system.bodies[1];
   if (ratio) red.mass = *blue.mass * *ratio;
   if (width_by_mass_) red.size = width_by_mass(blue, red);
-  if (wall_mass_) set_recoiling_wall(scene);
+  change_wall(scene);
   return scene;
 }
 
@@ -200,14 +199,19 @@ void SceneDraft::set_shutter(View& view) const {
   }
 }
 
-/// A wall of finite mass is a block.
-void SceneDraft::set_recoiling_wall(Scene& scene) const {
+/// A wall of finite mass is a block, and one that moves the wall of a box.
+void SceneDraft::change_wall(Scene& scene) const {
   constexpr int kColor = 140;  // between light and dark
   System& system = scene.system;
-  const Rational face = system.walls[0].point[0];
+  const ExactVector face = system.walls[0].point;
+  if (has_wall_ && !wall_mass_ && wall_velocity_ == 0) return;
   system.walls.clear();
-  system.bodies.push_back(
-      {.mass = *wall_mass_, .position = {face - Rational(1, 2)}, .name = "wall"});
+  if (!has_wall_) return;
+  if (!wall_mass_) return system.walls.push_back({"left", face, {1}, {wall_velocity_}});
+  system.bodies.push_back({.mass = *wall_mass_,
+                           .position = {face[0] - Rational(1, 2)},
+                           .velocity = {wall_velocity_},
+                           .name = "wall"});
   scene.styles.push_back({{{kColor, kColor, kColor}}, "wall"});
 }
 
@@ -236,6 +240,15 @@ void SceneDraft::check_bodies(ProblemLines& problems) const {
     } else if (bodies_.empty() && key.starts_with("box.")) {
       problems.add(origin, {key, ": is the box of bodies, and there is no [[body]]"});
     }
+  }
+  for (const auto& [key, axis] :
+       {std::pair("box.x-velocity", 0U), std::pair("box.y-velocity", 1U)}) {
+    if (bodies_.empty() || !origins_.contains(key) || !bodies_.moves_no_wall(axis)) continue;
+    problems.add(origins_.at(key), {key, ": moves an end of the box that has no wall"});
+  }
+  for (const char* const key : {"wall.mass", "wall.velocity"}) {
+    if (has_wall_ || !origins_.contains(key)) continue;
+    problems.add(origins_.at(key), {key, ": there is no wall, since wall.face is -inf"});
   }
   if (bodies_.empty() && bodies_.has_slanted_walls()) {
     problems.add(origin_of("wall"),

@@ -39,9 +39,9 @@ class SceneDraft {
   void set_entry(const std::string& path, TomlEntry& entry);
   void read_bodies(const std::string& path, TomlEntry& entry);
   void add_unread(const std::string& origin, const std::string& key, const std::string& reason);
-  void set_recoiling_wall(Scene& scene) const;
+  void change_wall(Scene& scene) const;
   void set_shutter(View& view) const;
-  bool set_box(const std::string& key, const Values& values);
+  bool set_wall(const std::string& key, const Values& values);
   void check_bodies(ProblemLines& problems) const;
   std::string origin_of(const std::string& key) const;
   bool is_repeated(const std::string& key) const;
@@ -52,7 +52,9 @@ class SceneDraft {
 
   Scene scene_;
   BodyDraft bodies_;
-  std::optional<Rational> wall_mass_;  ///< nothing: the wall does not move
+  bool has_wall_ = true;
+  std::optional<Rational> wall_mass_;  ///< nothing: no collision moves the wall
+  Rational wall_velocity_;
   std::optional<Rational> mass_ratio_;
   std::optional<int> digits_;  // their mass ratio depends on the base, which may be set later
   bool width_by_mass_ = false;

@@ -75,12 +75,22 @@ std::string body_text(const Scene& scene, std::size_t number) {
   if (style.color) text += ", color = " + toml_string(color_text(style));
   if (!style.label.empty()) text += ", label = " + toml_string(style.label);
   if (style.path) text += ", path = true";
+  if (body.restitution) text += ", restitution = " + scalar(body.restitution->get_str());
+  return text + " }";
+}
+
+std::string wall_text(const Wall& wall) {
+  std::string text = fmt::format("{{ point = {}, normal = {}", vector_of(wall.point, 2),
+                                 vector_of(wall.normal, 2));
+  if (is_moving(wall)) text += ", velocity = " + vector_of(wall.velocity, 2);
+  if (wall.restitution) text += ", restitution = " + scalar(wall.restitution->get_str());
   return text + " }";
 }
 
 /// The bodies, the sides of their box, and the walls that are not of it.
 void add_bodies(const Scene& scene, std::vector<std::string>& entries) {
   std::array<Values, 2> box = {Values{"-inf", "inf"}, Values{"-inf", "inf"}};
+  std::array<Values, 2> velocities = {Values{"0", "0"}, Values{"0", "0"}};
   std::vector<std::string> slanted;
   for (const Wall& wall : scene.system.walls) {
     const bool is_of_x = wall.name == "left" || wall.name == "right";
@@ -88,14 +98,17 @@ void add_bodies(const Scene& scene, std::vector<std::string>& entries) {
       const std::size_t axis = is_of_x ? 0 : 1;
       const std::size_t end = wall.name == "left" || wall.name == "lower" ? 0 : 1;
       box.at(axis).at(end) = wall.point.at(axis).get_str();
+      velocities.at(axis).at(end) = wall.velocity.at(axis).get_str();
     } else {
-      slanted.push_back(fmt::format("{{ point = {}, normal = {} }}", vector_of(wall.point, 2),
-                                    vector_of(wall.normal, 2)));
+      slanted.push_back(wall_text(wall));
     }
   }
   for (const std::size_t axis : {0U, 1U}) {
     if (box.at(axis) == Values{"-inf", "inf"}) continue;
-    entries.push_back(fmt::format("box.{} = {}", axis == 0 ? 'x' : 'y', value_of(box.at(axis))));
+    const char name = axis == 0 ? 'x' : 'y';
+    entries.push_back(fmt::format("box.{} = {}", name, value_of(box.at(axis))));
+    if (velocities.at(axis) == Values{"0", "0"}) continue;
+    entries.push_back(fmt::format("box.{}-velocity = {}", name, value_of(velocities.at(axis))));
   }
   if (!slanted.empty()) entries.push_back(fmt::format("wall = [{}]", fmt::join(slanted, ", ")));
   std::vector<std::string> texts;

@@ -19,8 +19,9 @@ const std::vector<std::string> kKeysOfParts = {"card", "becomes", "seconds",
 
 /// The keys of a scene outside of its lists of tables.
 std::vector<std::string> all_keys() {
-  std::vector<std::string> names = {"digits", "mass-ratio", "restitution",
-                                    "box.x",  "box.y",      "wall.mass"};
+  std::vector<std::string> names = {"digits",    "mass-ratio",     "restitution",
+                                    "wall.mass", "wall.velocity",  "box.x",
+                                    "box.y",     "box.x-velocity", "box.y-velocity"};
   for (const SceneKey& key : scene_keys()) names.emplace_back(key.name);
   return names;
 }

@@ -142,7 +142,11 @@ LoupeGap gap_between(const Collision& met, const System& system) {
   gap.meeting =
       (gap.outer == met.first ? met.first_after : met.second_after).position[0] - gap.side * reach;
   if (is_wall(gap.anchor)) {
-    gap.face = to_double(system.walls[gap.anchor - system.bodies.size()].point[0]);
+    const Wall& wall = system.walls[gap.anchor - system.bodies.size()];
+    if (is_moving(wall)) {
+      throw UsageError(kLoupeKey, "does not follow a wall that moves; leave it out");
+    }
+    gap.face = to_double(wall.point[0]);
   }
   return gap;
 }

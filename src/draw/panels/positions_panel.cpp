@@ -27,8 +27,11 @@ class PositionsPanel {
       add_band(paths[i], to_double(system.bodies[i].size) / 2, context.colors[i]);
     }
     for (const Wall& wall : system.walls) {
-      const double y = y_of(to_double(wall.point[0]));
-      diagram_.line({{axis_.plot().x, y}, {axis_.right(), y}}, diagram_.palette().wall,
+      const auto at = [&](const Rational& time) {
+        const Rational place = wall.point[0] + wall.velocity[0] * time;
+        return PathPoint{to_double(Rational(time - span.from)), {to_double(place), 0}};
+      };
+      diagram_.line(edge({at(span.from), at(span.to)}, 0), diagram_.palette().wall,
                     diagram_.data_width());
     }
     axis_.add_base(diagram_);

@@ -222,8 +222,10 @@ class LineMarks {
 
   double present_x_px(const MetPair& pair, const FrameState& shown) const {
     const std::size_t second = pair[1];
-    if (is_wall(second))
-      return layout_.at(to_double(system_.walls[second - colors_.size()].point[0]), 0).x;
+    if (is_wall(second)) {
+      const Wall& wall = system_.walls[second - colors_.size()];
+      return layout_.at(to_double(Rational(wall.point[0] + wall.velocity[0] * shown.time)), 0).x;
+    }
     return layout_.at(from_left(pair, shown)[1], shown).x;
   }
 

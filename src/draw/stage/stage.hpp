@@ -129,6 +129,8 @@ std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
 
 /// The walls of a layout, and the floor of a line.
 std::vector<DrawItem> stage_walls(const DrawingContext& context);
+/// Walls that move; nothing if there are none.
+std::optional<Drawable> moving_walls(const DrawingContext& context);
 /// Those of the article's picture: bodies of width 1 whose faces are where blocks turn back.
 std::vector<DrawItem> article_walls(const DrawingContext& context);
 

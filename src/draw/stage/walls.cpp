@@ -14,6 +14,8 @@
 namespace piblocks {
 namespace {
 
+/// Ids of walls that move come after those of all others.
+constexpr std::size_t kMostRestingWalls = 1000;
 /// In fractions of the frame's shorter side.
 constexpr double kAngleArc = 0.2;
 /// Between a wall's face and a text.
@@ -35,6 +37,8 @@ struct WallMap {
         {(*this)(first, front), (*this)(first, back), (*this)(last, front), (*this)(last, back)});
     return corners.bounds();
   }
+
+  Point end() const { return (*this)(length, 0); }
 
   Point from;
   double length;
@@ -110,21 +114,58 @@ void add_angle(const WallMap& first, const WallMap& second, const DrawingContext
                               context.font.face()});
 }
 
+/// At time 0; nothing if the view does not show it.
+std::optional<WallMap> face_in_plane(const Wall& wall, const DrawingContext& context) {
+  const WallPart part = part_of(wall, context.scene.system.walls, context.scene.view);
+  if (!(part.to > part.from)) return std::nullopt;
+  const auto at = [&](double s) {
+    return context.layout.at(to_double(wall.point[0]) + s * to_double(wall.normal[1]),
+                             to_double(wall.point[1]) - s * to_double(wall.normal[0]));
+  };
+  return WallMap(at(part.from), at(part.to));
+}
+
+/// At time 0, with the bodies on the left of its way.
+WallMap face_on_line(const Wall& wall, const DrawingContext& context) {
+  const Layout& layout = context.layout;
+  const double x = layout.at(to_double(wall.point[0]), 0).x;
+  const Point top{x, layout.top_px() - kWallAbove * context.sizes.short_side};
+  const Point bottom{x, layout.wall_bottom_px};
+  return wall.normal[0] > 0 ? WallMap(top, bottom) : WallMap(bottom, top);
+}
+
+/// A wall that moves, as at time 0.
+struct MovingFace {
+  std::vector<DrawItem> items;
+  Point velocity;  ///< in pixels per unit of time
+};
+
+DrawItem moved(const DrawItem& item, const Point& by, ItemId id) {
+  DrawItem moved = item;
+  if (auto* const path = std::get_if<PathItem>(&moved)) {
+    std::vector<Point> points(path->points.view().begin(), path->points.view().end());
+    for (Point& point : points) point = point + by;
+    path->points = std::move(points);
+    path->id = id;
+  } else if (auto* const rectangle = std::get_if<RectangleItem>(&moved)) {
+    rectangle->bounds.x += by.x;
+    rectangle->bounds.y += by.y;
+    rectangle->id = id;
+  }
+  return moved;
+}
+
 std::vector<DrawItem> walls_of_plane(const DrawingContext& context) {
   const std::vector<Wall>& walls = context.scene.system.walls;
   std::vector<DrawItem> items;
   std::vector<WallMap> seen;
   for (const Wall& wall : walls) {
-    const WallPart part = part_of(wall, walls, context.scene.view);
-    if (!(part.to > part.from)) continue;
-    const auto at = [&](double s) {
-      return context.layout.at(to_double(wall.point[0]) + s * to_double(wall.normal[1]),
-                               to_double(wall.point[1]) - s * to_double(wall.normal[0]));
-    };
-    seen.emplace_back(at(part.from), at(part.to));
+    const auto face = is_moving(wall) ? std::nullopt : face_in_plane(wall, context);
+    if (!face) continue;
+    seen.push_back(*face);
     // The lines of walls that meet overlap.
-    items.emplace_back(face_plate(nth(ItemId::wall, items.size()), at(part.from), at(part.to),
-                                  context, kWallHatch, context.sizes.wall_line / 2));
+    items.emplace_back(face_plate(nth(ItemId::wall, items.size()), face->from, face->end(), context,
+                                  kWallHatch, context.sizes.wall_line / 2));
   }
   if (!context.scene.show.has(Overlay::angles)) return items;
   constexpr double kSamePlace_px = 0.5;
@@ -176,6 +217,7 @@ LineWalls line_walls(const System& system) {
   LineWalls walls;
   for (const Wall& wall : system.walls) {
     const Rational& face = wall.point[0];
+    if (is_moving(wall)) continue;
     if (wall.normal[0] > 0) walls.left = walls.left ? std::max(*walls.left, face) : face;
     if (wall.normal[0] < 0) walls.right = walls.right ? std::min(*walls.right, face) : face;
   }
@@ -252,6 +294,33 @@ std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
                                 false, std::nullopt, Stroke{context.palette.wall, line}});
   }
   return items;
+}
+
+std::optional<Drawable> moving_walls(const DrawingContext& context) {
+  std::vector<MovingFace> faces;
+  for (const Wall& wall : context.scene.system.walls) {
+    if (!is_moving(wall)) continue;
+    const auto face = context.is_plane() ? face_in_plane(wall, context)
+                                         : std::optional(face_on_line(wall, context));
+    if (!face) continue;
+    const Layout& layout = context.layout;
+    const Point velocity =
+        layout.at(to_double(wall.velocity[0]), to_double(wall.velocity[1])) - layout.at(0, 0);
+    faces.push_back(
+        {hatched_face(face->from, face->end(), context, kWallHatch, context.sizes.wall_line / 2),
+         velocity});
+  }
+  if (faces.empty()) return std::nullopt;
+  return Drawable{
+      [faces = std::move(faces)](const FrameState& shown, std::vector<DrawItem>& items) {
+        std::size_t n = kMostRestingWalls;
+        for (const MovingFace& face : faces) {
+          const Point by = to_double(shown.time) * face.velocity;
+          for (const DrawItem& item : face.items) {
+            items.push_back(moved(item, by, nth(ItemId::wall, n++)));
+          }
+        }
+      }};
 }
 
 std::vector<DrawItem> stage_walls(const DrawingContext& context) {
