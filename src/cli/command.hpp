@@ -95,7 +95,7 @@ void define_page(Command& command);
 void define_log(Command& command);
 void define_state(Command& command);
 void define_count(Command& command);
-void define_need(Command& command);
+void define_min_restitution(Command& command);
 void define_scenes(Command& command);
 void define_compare(Command& command);
 void define_golden(Command& command);

@@ -27,7 +27,9 @@ std::string reached(const ShownRun& run) {
   if (!run.total) return collisions(run.at_end);
   if (*run.total == 0) return number + ": there are no collisions from time 0 on";
   if (run.is_over()) {
-    const char* const then = run.is_endless() ? "both blocks rest" : "there are no more";
+    const char* const then = !run.is_endless() ? "there are no more"
+                             : run.log.pair()  ? "both blocks rest"
+                                               : "nothing more is computed";
     return fmt::format("{}, after which {}", all_collisions(*run.total, run.is_endless()), then);
   }
   return fmt::format("{} of {}", number, all_collisions(*run.total, run.is_endless()));
@@ -39,6 +41,16 @@ std::string collision_words(const TwoBlocks& system) {
       "The coefficient of restitution is {} between the blocks and {} between the inner block and "
       "the wall",
       short_text(system.blocks_restitution), short_text(system.wall_restitution));
+}
+
+std::string collision_words(const System& system) {
+  if (is_elastic(system)) return "All collisions are elastic";
+  const auto has_own = [](const auto& one) { return one.restitution.has_value(); };
+  const bool is_one = system.restitution == system.wall_restitution &&
+                      std::ranges::none_of(system.bodies, has_own) &&
+                      std::ranges::none_of(system.walls, has_own);
+  if (!is_one) return "Collisions lose energy";
+  return fmt::format("The coefficient of restitution is {}", short_text(system.restitution));
 }
 
 /// What the counter reaches, and what that proves.
@@ -57,11 +69,11 @@ std::string describe_scene(const ShownRun& run) {
   if (!run.log.pair()) {
     const System& system = run.log.system();
     return fmt::format(
-        "{} {} {} without friction{}. All collisions are elastic, and {}", bodies_of(system),
+        "{} {} {} without friction{}. {}, and {}", bodies_of(system),
         system.bodies.size() == 1 ? "moves" : "move",
         system.dimensions == 1 ? "along a line" : "in a plane",
         system.walls.empty() ? "" : ", with " + counted(std::ssize(system.walls), "wall"),
-        count_sentences(run));
+        collision_words(system), count_sentences(run));
   }
   const TwoBlocks& system = run.log.pair()->blocks();
   return fmt::format(

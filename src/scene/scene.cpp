@@ -193,14 +193,13 @@ void check_fits(const Scene& scene, SceneProblems& problems) {
                    scene.time.from.offset);
 }
 
-/// What pictures say of elastic collisions alone. Where no restitution is possible, the system's
-/// problem is the only one.
-void check_elastic(const Scene& scene, SceneProblems& problems) {
-  if (is_elastic(scene.system) || !two_blocks_of(scene.system)) return;
+/// What pictures say where the energy is kept, by collisions and from outside.
+void check_energy(const Scene& scene, SceneProblems& problems) {
+  if (is_elastic(scene.system) && !is_driven(scene.system)) return;
   constexpr const char* kReason =
-      "has '{}', which needs elastic collisions; leave it out, or leave out the restitution";
+      "has '{}', which needs elastic collisions and walls that rest; leave it out";
   for (const Panel panel : scene.show.panels) {
-    if (panel == Panel::time || panel == Panel::count) continue;
+    if (panel == Panel::time || panel == Panel::count || panel == Panel::separation) continue;
     problems.add_item("show.panels", exact_text(panel), kReason, exact_text(panel));
   }
   const std::string digits = exact_text(Overlay::digits);
@@ -266,7 +265,7 @@ std::vector<Problem> problems_of(const Scene& scene) {
     problems.require(!style.path || scene.system.dimensions == 2, key + "path",
                      "is for discs; blocks have the diagram 'time'");
   }
-  check_elastic(scene, problems);
+  check_energy(scene, problems);
   check_fits(scene, problems);
   check_view(scene.view, problems);
   check_time(scene.time, problems);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -157,10 +158,45 @@ struct Scale {
 /// Whether there is a word for each body, so that its share of a sum can be shown.
 bool has_names(const LayoutContext& context) { return context.pair() != nullptr; }
 
-/// The energy of each body that has a name, and the sum of all. Elastic collisions keep the sum.
+double energy_in(const std::vector<double>& masses, const State& state) {
+  double sum = 0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const auto& [x, y] = state.bodies[i].velocity;
+    sum += masses[i] * (x * x + y * y) / 2;
+  }
+  return sum;
+}
+
+/// Of bodies whose collisions lose energy, or that get some from what moves as it likes.
+ReadOut changing_energy(const LayoutContext& context, const Rational& first, int digits) {
+  const auto& [scene, log] = std::tie(context.scene, context.log);
+  std::vector<double> masses;
+  for (const Body& body : scene.system.bodies) masses.push_back(to_double(body.mass.value_or(0)));
+  double most = to_double(first);
+  if (is_driven(scene.system) && has_span(scene, log)) {
+    most = std::max(most, energy_in(masses, log.state_at(span_of(scene, log).to)));
+  }
+  const Scale scale(magnitude_of(rational_from_decimal(most)), digits);
+  const double unit = scale.is_plain ? 1 : scale.largest.mantissa / most;
+  const auto text = [=, begin = to_double(first), is_kept = is_elastic(scene.system),
+                     is_driven = is_driven(scene.system)](double now) {
+    const std::string energy = fmt::format("Energy{} {}", scale.unit, scale.text(now * unit));
+    if (!is_driven) return fmt::format("{}, lost {}", energy, scale.text((begin - now) * unit));
+    if (!is_kept) return fmt::format("{}, at first {}", energy, scale.text(begin * unit));
+    const double gain = (now - begin) * unit;
+    return fmt::format("{}, from outside {}{}", energy, gain < 0 ? "" : "+", scale.text(gain));
+  };
+  return {"energy", text(most),
+          [=](const FrameState& shown) { return text(energy_in(masses, shown.state)); },
+          context.palette.text};
+}
+
+/// The energy of each body that has a name, and the sum of all.
 ReadOut energy_read_out(const LayoutContext& context, int digits) {
   const System& system = context.scene.system;
   const Rational exact_sum = twice_energy(system) / 2;
+  const bool is_kept_by_all = is_elastic(system) && !is_driven(system);
+  if (!has_names(context) && !is_kept_by_all) return changing_energy(context, exact_sum, digits);
   if (!has_names(context)) {
     std::string text = fmt::format("Energy {}", short_text(exact_sum));
     return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};

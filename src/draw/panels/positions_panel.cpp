@@ -28,8 +28,8 @@ class PositionsPanel {
     }
     for (const Wall& wall : system.walls) {
       const auto at = [&](const Rational& time) {
-        const Rational place = wall.point[0] + wall.velocity[0] * time;
-        return PathPoint{to_double(Rational(time - span.from)), {to_double(place), 0}};
+        const Rational face = wall.point[0] + wall.velocity[0] * time;
+        return PathPoint{to_double(Rational(time - span.from)), {to_double(face), 0}};
       };
       diagram_.line(edge({at(span.from), at(span.to)}, 0), diagram_.palette().wall,
                     diagram_.data_width());

@@ -1,4 +1,4 @@
-// `piblocks need`: how elastic blocks must be to count the digits of pi.
+// `piblocks min-restitution`: how elastic blocks must be to count the digits of pi.
 #include <fmt/format.h>
 #include <piblocks/exact.hpp>
 
@@ -31,7 +31,7 @@ TEST_F(NeedCli, PrintsDecimalsThatCountTakes) {
                                                   {"2", "7", "31", "32"}}) {
     SCOPED_TRACE(std::string(digits) + " digits in base " + base);
     const Arguments scene{"--digits", digits, "--base", base};
-    const auto said = lines(output_of(Arguments{"need"} + scene));
+    const auto said = lines(output_of(Arguments{"min-restitution"} + scene));
     ASSERT_GE(said.size(), 4U);
     EXPECT_EQ(word_behind(said[0], "Elastic blocks collide "), count);
     const std::string proof = said[said.size() - 2];
@@ -51,7 +51,7 @@ TEST_F(NeedCli, PrintsDecimalsThatCountTakes) {
     EXPECT_EQ(said[0].ends_with("(counts in base " + std::string(base) + ")."),
               base != std::string("10"));
   }
-  EXPECT_EQ(lines(output_of({"need", "--digits", "1"}))[1],
+  EXPECT_EQ(lines(output_of({"min-restitution", "--digits", "1"}))[1],
             "Only restitution 1 gives this count: any loss adds a collision.");
 }
 
@@ -62,7 +62,7 @@ TEST_F(NeedCli, TellsLossesThatNoDoubleHolds) {
   };
   for (const int digits : {215, 216, 217, 300, 1000}) {
     SCOPED_TRACE(digits);
-    const auto said = lines(output_of({"need", "--digits", std::to_string(digits)}));
+    const auto said = lines(output_of({"min-restitution", "--digits", std::to_string(digits)}));
     ASSERT_GE(said.size(), 4U);
     const std::string count = count_of(digits);
     EXPECT_EQ(said[0], "Elastic blocks collide " + count + " times.");

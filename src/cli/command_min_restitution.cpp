@@ -65,13 +65,13 @@ void print_need(int digits, int base, TextOutput& out) {
 
 }  // namespace
 
-void define_need(Command& command) {
+void define_min_restitution(Command& command) {
   command.add_required_value("--digits", "D", "Of the article's scene with D digits, 1 to 1000");
   command.add_value("--base", "B", "In this base, 2 to 36 (default 10)");
   command.set_footer(
       "Examples:\n"
-      "  piblocks need --digits 3\n"
-      "  piblocks need --digits 15");
+      "  piblocks min-restitution --digits 3\n"
+      "  piblocks min-restitution --digits 15");
   command.on_run([command] {
     constexpr int kMostDigits = 1000;
     const auto parse_digits = [](const std::string& text) {
