@@ -32,6 +32,9 @@ struct Collision {
   std::uint32_t second = 0;  ///< of another, > first; or bodies.size() and the place of a wall
   Motion first_after = {};
   Motion second_after = {};  ///< of a wall: where its point is, and its velocity
+  // Velocities just before; 0 for two blocks beside something immovable.
+  std::array<double, 2> first_before = {};
+  std::array<double, 2> second_before = {};
 };
 
 /// A place on a body's way.

@@ -29,6 +29,16 @@ double inverse_mass(const LineElement& element) {
   return element.mass ? to_double(1 / *element.mass) : 0;
 }
 
+double factor_of(const LineElement& own, const LineElement& other, const Rational& restitution) {
+  return to_double(
+      velocity_change(Rational(1), share_of_change(own.mass, other.mass), restitution));
+}
+
+/// What no collision moves has no weight in the norms of errors.
+double speed_rounding(const LineElement& element) {
+  return element.mass ? 0 : 2 * kUnitRoundoff * std::fabs(to_double(element.velocity));
+}
+
 }  // namespace
 
 CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Rational& begin)
@@ -50,9 +60,10 @@ CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Ration
     const LineElement& left = elements[i];
     const LineElement& right = elements[i + 1];
     Pair& pair = pairs_[i];
-    pair.left_share = to_double(share_of_change(left.mass, right.mass));
-    pair.right_share = to_double(share_of_change(right.mass, left.mass));
+    pair.left_factor = factor_of(left, right, left.restitution);
+    pair.right_factor = factor_of(right, left, left.restitution);
     pair.gap_per_norm = kSpare * std::sqrt(inverse_mass(left) + inverse_mass(right));
+    pair.speed_rounding = speed_rounding(left) + speed_rounding(right);
     // Exact numbers tell that they have just met, or are at rest beside each other.
     pair.has_met =
         left.position_at(begin) + left.half_width == right.position_at(begin) - right.half_width &&
@@ -91,9 +102,9 @@ CertifiedLine::Approach CertifiedLine::approach(std::size_t pair) const {
 
 double CertifiedLine::earliest(std::size_t pair, const Approach& approach) const {
   const Pair& p = pairs_[pair];
-  if (p.has_met) return kNever;
-  const double speed_error =
-      velocity_budget_ * p.gap_per_norm + kVelocityRoundings * std::fabs(approach.closing);
+  if (p.has_met || p.gap_per_norm == 0) return kNever;
+  const double speed_error = velocity_budget_ * p.gap_per_norm + p.speed_rounding +
+                             kVelocityRoundings * std::fabs(approach.closing);
   const double closing = approach.closing + speed_error;
   if (!(closing > 0)) return kNever;
   const double gap = approach.gap - approach.rounding - position_budget_ * p.gap_per_norm;
@@ -143,22 +154,25 @@ bool CertifiedLine::move_bounds_to(double clock) {
 void CertifiedLine::check_order(std::size_t pair, double clock) {
   const Pair& p = pairs_[pair];
   const Approach now = approach(pair);
-  const double rest = std::fabs(now.gap - now.closing * (clock - now.clock)) + now.rounding +
-                      kVelocityRoundings * std::fabs(now.gap);
+  const double flight = clock - now.clock;
+  const double rest = std::fabs(now.gap - now.closing * flight) + now.rounding +
+                      p.speed_rounding * flight + kVelocityRoundings * std::fabs(now.gap);
   const double gap_error = position_error_ * p.gap_per_norm + rest;
-  const double slowest =
-      now.closing - velocity_error_ * p.gap_per_norm - kVelocityRoundings * now.closing;
+  const double slowest = now.closing - velocity_error_ * p.gap_per_norm - p.speed_rounding -
+                         kVelocityRoundings * now.closing;
   if (!(slowest > 0)) return end_certainty(earliest(pair, now));
   const double tolerance = gap_error / slowest * kSpare + kPositionRoundings * clock;
   double other = kNever;
   if (pair > 0) other = std::min(other, earliest(pair - 1, approach(pair - 1)));
   if (pair + 1 < pairs_.size()) other = std::min(other, earliest(pair + 1, approach(pair + 1)));
   if (other <= clock + tolerance) return end_certainty(std::min(clock - tolerance, other));
-  // Reflected while a rest of the gap is left, they are off by twice this rest.
+  // Reflected while a rest of the gap is left, they are off by twice this rest at most.
   position_error_ += 2 * rest / p.gap_per_norm * kSpare;
 }
 
 void CertifiedLine::advance(Element& element, double clock) {
+  // Its place is rounded once as long as it stays the product of velocity and time.
+  if (!element.is_movable && element.velocity != 0) return;
   const double way = element.velocity * (clock - element.since);
   position_error_ += element.root_mass * kPositionRoundings *
                      (std::fabs(element.position) + std::fabs(way)) * kSpare;
@@ -172,8 +186,8 @@ void CertifiedLine::collide(std::size_t pair) {
   const double closing = left.velocity - right.velocity;
   velocity_error_ += (left.root_mass + right.root_mass) * kVelocityRoundings *
                      (std::fabs(left.velocity) + std::fabs(right.velocity)) * kSpare;
-  left.velocity -= velocity_change(closing, pairs_[pair].left_share);
-  right.velocity += velocity_change(closing, pairs_[pair].right_share);
+  left.velocity -= closing * pairs_[pair].left_factor;
+  right.velocity += closing * pairs_[pair].right_factor;
   if (!std::isfinite(left.velocity) || !std::isfinite(right.velocity) ||
       !std::isfinite(left.position) || !std::isfinite(right.position)) {
     throw SimulationError("bodies: a position or velocity is out of the range of a double");
@@ -203,13 +217,15 @@ std::optional<SteppedCollision> CertifiedLine::step() {
       end_certainty(due);
       continue;
     }
-    if (is_certain()) check_order(pair, due);
+    if (is_certain() && pairs_[pair].gap_per_norm > 0) check_order(pair, due);
     advance(elements_[pair], due);
     advance(elements_[pair + 1], due);
     collide(pair);
     pairs_[pair].has_met = true;
     replay_around(pair);
-    const auto motion = [](const Element& e) { return Motion{{e.position, 0}, {e.velocity, 0}}; };
+    const auto motion = [&](const Element& e) {
+      return Motion{{e.position + e.velocity * (due - e.since), 0}, {e.velocity, 0}};
+    };
     const Time sum = two_sum(begin_.hi, due);
     const Element& left = elements_[pair];
     const Element& right = elements_[pair + 1];

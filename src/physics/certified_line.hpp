@@ -42,13 +42,15 @@ class CertifiedLine {
   };
   /// Two neighbours.
   struct Pair {
-    double left_share = 0;  ///< share_of_change() of the left one
-    double right_share = 0;
+    double left_factor = 0;  ///< of the closing speed: by how much the left one's velocity changes
+    double right_factor = 0;
     /// sqrt(1/m_left + 1/m_right): an error of norm E changes their gap by E times this at most.
+    /// 0 if no collision moves them.
     double gap_per_norm = 0;
-    bool has_met = false;   ///< and neither has met another since
-    double due = kNever;    ///< clock of what comes next
-    bool is_doubt = false;  ///< not a collision, but the earliest that there might be one
+    double speed_rounding = 0;  ///< of the velocities that no collision changes
+    bool has_met = false;       ///< and neither has met another since
+    double due = kNever;        ///< clock of what comes next
+    bool is_doubt = false;      ///< not a collision, but the earliest that there might be one
   };
   /// A gap, and how fast it closes.
   struct Approach {

@@ -152,11 +152,7 @@ class EventLog final : public PairLog {
 }  // namespace
 
 std::unique_ptr<PairLog> make_event_log(const System& system) {
-  if (!is_elastic(system)) {
-    throw UsageError(
-        "event loop: its collisions are elastic; for blocks.restitution and wall.restitution use "
-        "the closed form (--engine unfolded)");
-  }
+  require_elastic(system);
   const TwoBlocks blocks = two_blocks_of(system).value();
   const Integer count =
       std::max(ExactMotion(blocks).total(), ExactMotion(reversed(blocks)).total());

@@ -60,6 +60,7 @@ class EventStepper final : public Stepper {
     for (const Wall& wall : system.walls) {
       particles.push_back({.mass = kInfiniteMass<double>,
                            .position = rounded(wall.point),
+                           .velocity = rounded(wall.velocity),
                            .facing = rounded(wall.normal)});
     }
     return particles;
@@ -70,7 +71,13 @@ class EventStepper final : public Stepper {
 
 }  // namespace
 
+void require_elastic(const System& system) {
+  if (is_elastic(system)) return;
+  throw UsageError("event loop: its collisions are elastic; leave out --engine events");
+}
+
 std::unique_ptr<Stepper> make_event_stepper(const System& system) {
+  require_elastic(system);
   if (system.bodies.size() > kMaxEventBodies) {
     throw UsageError(fmt::format(
         "event loop: {} bodies are more than the limit of {}; leave out --engine events",

@@ -19,8 +19,9 @@ Motion motion_of(const LineElement& element) {
 
 void collide(LineElement& left, LineElement& right) {
   const Rational closing = left.velocity - right.velocity;
-  left.velocity -= velocity_change(closing, share_of_change(left.mass, right.mass));
-  right.velocity += velocity_change(closing, share_of_change(right.mass, left.mass));
+  const Rational& e = left.restitution;
+  left.velocity -= velocity_change(closing, share_of_change(left.mass, right.mass), e);
+  right.velocity += velocity_change(closing, share_of_change(right.mass, left.mass), e);
 }
 
 /// The wall on one side of all blocks that is next to them; nothing if there is none.
@@ -33,7 +34,7 @@ std::optional<LineElement> nearest_wall(const System& system, int sign) {
     if (sgn(wall.normal[0]) != sign) continue;
     if (nearest && sign * face <= sign * nearest->position) continue;
     const auto id = static_cast<std::uint32_t>(system.bodies.size() + i);
-    nearest = LineElement{id, std::nullopt, 0, face, 0};
+    nearest = LineElement{id, std::nullopt, 0, face, wall.velocity[0]};
   }
   return nearest;
 }
@@ -54,6 +55,9 @@ std::vector<LineElement> elements_of(const System& system) {
   std::ranges::sort(elements, {}, &LineElement::position);
   if (auto left = nearest_wall(system, 1)) elements.insert(elements.begin(), std::move(*left));
   if (auto right = nearest_wall(system, -1)) elements.push_back(std::move(*right));
+  for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
+    elements[i].restitution = restitution_of(system, elements[i].id, elements[i + 1].id);
+  }
   return elements;
 }
 

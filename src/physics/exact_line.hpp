@@ -22,11 +22,11 @@ struct LineElement {
   Rational position;             ///< of the centre, at the time `since`
   Rational velocity;
   Rational since = 0;
+  Rational restitution = 1;  ///< of the next element on the right and this one
 
   Rational position_at(const Rational& time) const { return position + velocity * (time - since); }
 };
 
-/// Of two neighbours, at most one of which is immovable.
 TieRank rank_of(const LineElement& a, const LineElement& b);
 
 /// The blocks, and the walls next to them, from left to right.
@@ -45,7 +45,8 @@ class ExactLine {
   ExactLine& operator=(const ExactLine&) = delete;
   ~ExactLine() = default;
 
-  /// The next collision; none if there will be no more.
+  /// The next collision; none if there will be no more. If two that no collision moves meet, this
+  /// is a step, too, which changes nothing.
   std::optional<SteppedCollision> step();
   /// The longest number of the last step, numerator and denominator together.
   std::size_t bits() const noexcept { return bits_; }

@@ -51,8 +51,8 @@ std::array<double, 2> way_to(const System& system, const Collision& collision) {
   return {-to_double(normal[0]), -to_double(normal[1])};
 }
 
-/// Both velocities along the line between them are reversed as seen from their common centre of
-/// mass, so that what they are afterwards says how large the impulse was.
+/// If elastic, both velocities along the line between them are reversed as seen from their common
+/// centre of mass, so that what they are afterwards says how large the impulse was.
 double impulse_of(const System& system, const Collision& collision) {
   const auto mass = [&](std::uint32_t id) -> std::optional<double> {
     if (id >= system.bodies.size() || !system.bodies[id].mass) return std::nullopt;
@@ -66,6 +66,13 @@ double impulse_of(const System& system, const Collision& collision) {
       std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
   std::optional<double> own = mass(collision.first);
   std::optional<double> other = mass(collision.second);
+  if (restitution_of(system, collision.first, collision.second) != 1) {
+    const auto& before = own ? collision.first_before : collision.second_before;
+    const auto& after = own ? u : v;
+    const double x = after[0] - before[0];
+    const double y = after[1] - before[1];
+    return (own ? *own : *other) * std::sqrt(x * x + y * y);
+  }
   if (!own) std::swap(own, other);
   return *own * velocity_change(speed, share_of_change(own, other));
 }

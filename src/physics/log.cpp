@@ -14,9 +14,19 @@ Motion motion_at_start(const System& system, std::size_t id) {
     return std::array<double, 2>{to_double(vector[0]), to_double(vector[1])};
   };
   if (id >= system.bodies.size()) {
-    return {rounded(system.walls[id - system.bodies.size()].point), {}};
+    const Wall& wall = system.walls[id - system.bodies.size()];
+    return {rounded(wall.point), rounded(wall.velocity)};
   }
   return {rounded(system.bodies[id].position), rounded(system.bodies[id].velocity)};
+}
+
+std::string noun_of(const System& system, std::size_t id) {
+  if (id < system.bodies.size()) {
+    const std::string& name = system.bodies[id].name;
+    return name.empty() ? body_key(system, id) : name;
+  }
+  const std::string& name = system.walls[id - system.bodies.size()].name;
+  return name == "wall" ? "the wall" : "the " + name + " wall";
 }
 
 std::vector<Motion> motions_at_start(const System& system) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace piblocks {
@@ -26,6 +27,8 @@ std::unique_ptr<Log> make_log_of_valid(const System& system, const std::optional
 std::vector<Motion> motions_at_start(const System& system);
 /// A body at time 0, or a wall. @param id  as in Collision
 Motion motion_at_start(const System& system, std::size_t id);
+/// As in "blue", "body 3" or "the left wall". @param id  as in Collision
+std::string noun_of(const System& system, std::size_t id);
 
 /// `count` >= 2 shares of an interval of time, 0 … 1, in order: both ends, and one in each of equal
 /// parts between. They follow no rhythm, so that they do not fall in step with a body that bounces.

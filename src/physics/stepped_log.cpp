@@ -47,8 +47,16 @@ double crossing_time(const System& system) {
   }
   for (const Wall& wall : system.walls) {
     for (const Rational& x : wall.point) size = std::max(size, 2 * std::abs(to_double(x)));
+    for (const Rational& v : wall.velocity) speed = std::max(speed, std::abs(to_double(v)));
   }
   return size / speed;
+}
+
+Motion moved(Motion motion, double duration) {
+  for (const std::size_t axis : {0U, 1U}) {
+    motion.position.at(axis) += motion.velocity.at(axis) * duration;
+  }
+  return motion;
 }
 
 /// Steps are computed when they are first asked for, and stay.
@@ -89,8 +97,16 @@ class SteppedLog final : public Log {
   Collision collision(const Integer& index) const override {
     compute_up_to(index);
     const std::shared_lock lock(mutex_);
-    const StoredStep& step = steps_.at(index.get_ui() - 1);
-    return {index, step.time, step.first, step.second, step.first_after, step.second_after};
+    const auto number = static_cast<std::uint32_t>(index.get_ui() - 1);
+    const StoredStep& step = steps_.at(number);
+    return {index,
+            step.time,
+            step.first,
+            step.second,
+            step.first_after,
+            step.second_after,
+            velocity_before(step.first, number),
+            velocity_before(step.second, number)};
   }
 
   State state_at(const Rational& time) const override {
@@ -175,11 +191,13 @@ class SteppedLog final : public Log {
       motion = after(last, body);
       since = last.time;
     }
-    const double duration = flight(since, time);
-    for (const std::size_t axis : {0U, 1U}) {
-      motion.position.at(axis) += motion.velocity.at(axis) * duration;
-    }
-    return motion;
+    return moved(motion, flight(since, time));
+  }
+  /// @param id  as in Collision
+  std::array<double, 2> velocity_before(std::uint32_t id, std::uint32_t step) const {
+    if (id >= of_body_.size()) return motion_at_start(system(), id).velocity;
+    const auto own = std::ranges::lower_bound(of_body_[id], step);
+    return motion_at(id, steps_[step].time, own).velocity;
   }
 
   struct Interval {
@@ -252,14 +270,28 @@ class SteppedLog final : public Log {
   }
 
   bool is_computed_until(const Rational& time) const {
+    if (jam_ && time < to_rational(jam_->time)) return true;
     return is_complete_ || (!steps_.empty() && time_of(steps_.size() - 1) > time);
   }
 
+  bool is_immovable(std::uint32_t id) const {
+    return id >= of_body_.size() || !system().bodies[id].mass;
+  }
+
   void add_step() const {
+    if (jam_) {
+      throw SimulationError(fmt::format(
+          "bodies: {} and {} would meet at t = {:.6g}, and nothing moves them aside; end earlier",
+          noun_of(system(), jam_->first), noun_of(system(), jam_->second), jam_->time.hi));
+    }
     const std::optional<SteppedCollision> step = stepper_->step();
     note_certainty();
     is_complete_ = !step;
     if (is_complete_) return;
+    if (is_immovable(step->first) && is_immovable(step->second)) {
+      jam_ = step;
+      return;
+    }
     if (steps_.size() == static_cast<std::size_t>(kMaxSteppedCollisions)) {
       throw SimulationError(fmt::format(
           "bodies: more than {} collisions until time {:.6g}; show or count those until an earlier "
@@ -274,7 +306,8 @@ class SteppedLog final : public Log {
     }
     const bool is_wall = step->second >= of_body_.size();
     steps_.push_back({step->time, step->first, step->second, step->first_after,
-                      is_wall ? motion_at_start(system(), step->second) : step->second_after});
+                      is_wall ? moved(motion_at_start(system(), step->second), step->time.hi)
+                              : step->second_after});
   }
 
   /// By then a run of which all is computed has ended, if rounding has not changed it: bodies that
@@ -322,7 +355,8 @@ class SteppedLog final : public Log {
   mutable std::vector<Numbers> of_body_;       // numbers of its steps
   mutable std::optional<Integer> first_tie_;
   mutable std::optional<double> certain_until_;
-  mutable std::exception_ptr failure_;  // of the engine
+  mutable std::optional<SteppedCollision> jam_;  // of two that no collision moves
+  mutable std::exception_ptr failure_;           // of the engine
 };
 
 }  // namespace

@@ -53,7 +53,9 @@ std::unique_ptr<Stepper> make_line_stepper(const System& system);
 
 /// Engine::events: EventSimulator in double precision. Nothing bounds its errors, so that all of
 /// its steps count as certain.
-/// @throws UsageError if there are more than kMaxEventBodies.
+/// @throws UsageError if there are more than kMaxEventBodies, or as require_elastic().
 std::unique_ptr<Stepper> make_event_stepper(const System& system);
+/// @throws UsageError if Engine::events cannot step this because it loses energy.
+void require_elastic(const System& system);
 
 }  // namespace piblocks

@@ -26,7 +26,11 @@ struct ExactCollision {
 /// neighbours: pairs that cannot meet are found by their gap alone.
 class ExactWalk {
  public:
-  explicit ExactWalk(const System& system) : walls_(system.walls), bodies_(system.bodies) {}
+  explicit ExactWalk(const System& system)
+      : walls_(system.walls),
+        bodies_(system.bodies),
+        of_movable_(system.restitution),
+        of_immovable_(system.wall_restitution) {}
 
   std::optional<ExactCollision> next() {
     std::optional<ExactCollision> found;
@@ -48,6 +52,7 @@ class ExactWalk {
     }
     if (!found) return found;
     for (Body& body : bodies_) body.position[0] += body.velocity[0] * (found->time - time_);
+    for (Wall& wall : walls_) wall.point[0] += wall.velocity[0] * (found->time - time_);
     time_ = found->time;
     collide(found->first, found->second);
     return found;
@@ -79,39 +84,67 @@ class ExactWalk {
     const Body& body = bodies_[i];
     const Wall& wall = walls_[w];
     const int side = sgn(wall.normal[0]);
-    const Rational speed = -side * body.velocity[0];
+    const Rational speed = side * (wall.velocity[0] - body.velocity[0]);
     if (speed <= 0) return std::nullopt;
     return (side * (body.position[0] - wall.point[0]) - body.size / 2) / speed;
   }
   void collide(std::size_t i, std::size_t j) {
     Rational& u = bodies_[i].velocity[0];
     if (j >= bodies_.size()) {
-      u = -u;
+      const Wall& wall = walls_[j - bodies_.size()];
+      const Rational e = lower(bodies_[i].restitution.value_or(of_immovable_),
+                               wall.restitution.value_or(of_immovable_));
+      u = wall.velocity[0] + e * (wall.velocity[0] - u);
       return;
     }
     Rational& v = bodies_[j].velocity[0];
     const auto& m = bodies_[i].mass;
     const auto& n = bodies_[j].mass;
-    if (!m) {
-      v = -v;
-    } else if (!n) {
-      u = -u;
-    } else {
-      const Rational centre = (*m * u + *n * v) / (*m + *n);
-      u = 2 * centre - u;
-      v = 2 * centre - v;
-    }
+    const Rational& usual = m && n ? of_movable_ : of_immovable_;
+    const Rational e =
+        lower(bodies_[i].restitution.value_or(usual), bodies_[j].restitution.value_or(usual));
+    const Rational centre = !m ? u : !n ? v : Rational((*m * u + *n * v) / (*m + *n));
+    u = centre + e * (centre - u);
+    v = centre + e * (centre - v);
   }
+  static Rational lower(const Rational& a, const Rational& b) { return a < b ? a : b; }
 
   std::vector<Wall> walls_;
   std::vector<Body> bodies_;
+  Rational of_movable_;
+  Rational of_immovable_;
   Rational time_ = 0;
 };
 
 struct Limits {
   long most_bodies = 6;
   bool walls = true;
+  bool is_driven = false;  ///< walls and immovable blocks may move
+  bool is_lossy = false;
 };
+
+Rational any_restitution(Random& random) {
+  const auto choice = random.integer(0, 3);
+  return choice < 2 ? Rational(choice) : random.rational(0, 1, 10);
+}
+
+/// Coefficients for all, and some bodies and walls with their own.
+void make_lossy(System& system, Random& random) {
+  system.restitution = any_restitution(random);
+  system.wall_restitution = any_restitution(random);
+  const auto give_own = [&](auto& one) {
+    if (random.integer(0, 3) == 0) one.restitution = any_restitution(random);
+  };
+  for (Body& body : system.bodies) give_own(body);
+  for (Wall& wall : system.walls) give_own(wall);
+}
+
+void make_driven(System& system, Random& random) {
+  for (Body& body : system.bodies) {
+    if (!body.mass) body.velocity[0] = random.rational(-1, 1, 4);
+  }
+  for (Wall& wall : system.walls) wall.velocity[0] = random.rational(-1, 1, 4);
+}
 
 System random_line(Random& random, const Limits& limits) {
   System system;
@@ -142,22 +175,33 @@ System random_line(Random& random, const Limits& limits) {
   if (limits.walls && random.integer(0, 2) == 0) {
     system.walls.push_back({"right", {x + random.rational(0, 3, 5)}, {-1}});
   }
+  if (limits.is_driven) make_driven(system, random);
+  if (limits.is_lossy) make_lossy(system, random);
   return system;
+}
+
+/// Whether no collision moves either of the two: the walk passes over such meetings.
+bool is_jam(const System& system, const SteppedCollision& step) {
+  const auto is_immovable = [&](std::uint32_t id) {
+    return id >= system.bodies.size() || !system.bodies[id].mass;
+  };
+  return is_immovable(step.first) && is_immovable(step.second);
 }
 
 constexpr int kMostSteps = 150;
 
-TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) {
-  for (std::uint64_t i = 0; i < std::uint64_t(many(120)); ++i) {
-    Random random(i);
-    const System system = random_line(random, {});
+void expect_steps_of_walk(std::int64_t count, std::uint64_t seed, const Limits& limits) {
+  for (std::uint64_t i = 0; i < std::uint64_t(count); ++i) {
+    Random random(seed + i);
+    const System system = random_line(random, limits);
     ASSERT_TRUE(problems_of(system).empty()) << problems_of(system).front().reason;
     ExactWalk walk(system);
     const auto stepper = make_line_stepper(system);
     for (int k = 0; k < kMostSteps; ++k) {
       const std::size_t bits = walk.bits();
-      const std::optional<ExactCollision> expected = walk.next();
       const std::optional<SteppedCollision> step = stepper->step();
+      if (step && is_jam(system, *step)) break;
+      const std::optional<ExactCollision> expected = walk.next();
       ASSERT_EQ(step.has_value(), expected.has_value()) << "system " << i << ", step " << k;
       if (!step) break;
       if (!step->exact_time) {
@@ -174,6 +218,14 @@ TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) {
   }
 }
 
+TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) { expect_steps_of_walk(many(120), 0, {}); }
+
+TEST(LineTest, LossAndMotionAreThoseOfAnExactProgram) {
+  expect_steps_of_walk(many(100), 2'000'000, {.is_lossy = true});
+  expect_steps_of_walk(many(100), 3'000'000, {.is_driven = true});
+  expect_steps_of_walk(many(100), 4'000'000, {.is_driven = true, .is_lossy = true});
+}
+
 /// What each body meets, in order; and when.
 using Partners = std::map<std::size_t, std::vector<std::pair<std::size_t, double>>>;
 
@@ -182,13 +234,13 @@ void add(Partners& partners, std::size_t first, std::size_t second, double time)
   partners[second].emplace_back(first, time);
 }
 
-TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
+/// @return certain steps of a system
+double certain_steps_of(std::int64_t count, std::uint64_t seed, const Limits& limits) {
   double certain_steps = 0;
   int uncertain = 0;
-  const auto count = std::uint64_t(many(200));
-  for (std::uint64_t i = 0; i < count; ++i) {
-    Random random(1'000'000 + i);
-    const System system = random_line(random, {.most_bodies = 5});
+  for (std::uint64_t i = 0; i < std::uint64_t(count); ++i) {
+    Random random(seed + i);
+    const System system = random_line(random, limits);
     ExactWalk walk(system);
     CertifiedLine line(elements_of(system), 0);
     Partners expected;
@@ -197,7 +249,9 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
       if (const auto collision = walk.next()) {
         add(expected, collision->first, collision->second, to_double(collision->time));
       }
-      if (const auto step = line.step()) add(found, step->first, step->second, step->time.hi);
+      const auto step = line.step();
+      if (step && is_jam(system, *step)) break;
+      if (step) add(found, step->first, step->second, step->time.hi);
     }
     // Doubles may take collisions of different bodies in another order, also around the last step.
     for (int k = 0; k < 10; ++k) {
@@ -211,17 +265,33 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
       for (std::size_t k = 0; k < meetings.size(); ++k) {
         const auto& [partner, time] = meetings[k];
         if (time >= until) break;
-        ASSERT_LT(k, expected[body].size()) << "system " << i;
-        ASSERT_EQ(partner, expected[body][k].first) << "system " << i << ", body " << body;
-        ASSERT_NEAR(time, expected[body][k].second, 1e-7 * (1 + time)) << "system " << i;
+        if (k >= expected[body].size() || partner != expected[body][k].first) {
+          ADD_FAILURE() << "system " << i << ", body " << body << ", time " << time;
+          return 0;
+        }
+        // Of bodies that have hardly any speed left, only the order is certain.
+        if (!limits.is_lossy) {
+          EXPECT_NEAR(time, expected[body][k].second, 1e-7 * (1 + time)) << "system " << i;
+        }
         certain_steps += 0.5;
       }
     }
   }
-  RecordProperty("certain_steps", std::to_string(certain_steps / double(count)));
   std::printf("certain: %.1f steps a system; %d of %d end\n", certain_steps / double(count),
               uncertain, int(count));
-  EXPECT_GT(certain_steps / double(count), 20);
+  return certain_steps / double(count);
+}
+
+TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
+  EXPECT_GT(certain_steps_of(many(200), 1'000'000, {.most_bodies = 5}), 20);
+}
+
+TEST(LineTest, SoAreThoseOfLossAndMotion) {
+  EXPECT_GT(certain_steps_of(many(100), 5'000'000, {.most_bodies = 5, .is_lossy = true}), 20);
+  EXPECT_GT(certain_steps_of(many(100), 6'000'000, {.most_bodies = 5, .is_driven = true}), 20);
+  EXPECT_GT(certain_steps_of(many(100), 7'000'000,
+                             {.most_bodies = 5, .is_driven = true, .is_lossy = true}),
+            20);
 }
 
 /// Two systems whose only difference is the order of their bodies.
