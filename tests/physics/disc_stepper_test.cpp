@@ -188,12 +188,23 @@ TEST(DiscStepper, OneDiscInABoxIsCertainForLong) {
     ASSERT_TRUE(step);
     const double expected = step->second <= 2 ? 1.5 + 2 * across++ : 6.0 + 9 * up++;
     ASSERT_NEAR(step->time.hi, expected, 1e-9);
-    if (stepper->certain_until() != kForEver) {
-      // Only where it meets both walls at once can anything be in doubt.
-      EXPECT_NEAR(std::abs(std::remainder(step->time.hi - 1.5, 2)), 0, 1e-9);
-      return;
+  }
+  // Even where it meets both walls at once.
+  EXPECT_EQ(stepper->certain_until(), kForEver);
+}
+
+TEST(DiscStepper, DiscInACornerMeetsTheLowerWallFirst) {
+  const System system{.dimensions = 2, .bodies = {{1, {5, 5}, {-1, -1}}}, .walls = box(10, 10)};
+  const auto stepper = make_disc_stepper(system);
+  for (std::uint32_t k = 0; k < 10; ++k) {
+    for (const std::uint32_t wall : {1u, 3u}) {
+      const auto step = stepper->step();
+      ASSERT_TRUE(step);
+      EXPECT_EQ(pair_of(*step), Pair(0, wall + k % 2));
+      EXPECT_EQ(step->time.hi, 4 + 8 * k);
     }
   }
+  EXPECT_EQ(stepper->certain_until(), kForEver);
 }
 
 TEST(DiscStepper, NothingHappensToDiscsAtRest) {
@@ -266,6 +277,7 @@ TEST(DiscStepper, WallsComeAfterDiscs) {
   const auto stepper = make_disc_stepper(corner);
   EXPECT_EQ(pair_of(*stepper->step()), Pair(1, 2));
   EXPECT_EQ(pair_of(*stepper->step()), Pair(1, 3));
+  EXPECT_EQ(stepper->certain_until(), kForEver);
 }
 
 TEST(DiscStepper, PowersOfTwoScaleEverythingExactly) {

@@ -96,8 +96,36 @@ double time_before(double start, double time_error) {
 /// start + wait, rounded down
 double time_after(double start, double wait) {
   const double time = start + wait;
-  return time == kNever ? kNever : time - 2 * kUnit * time;
+  return time == kNever ? kNever : time - 2 * kUnit * (start + std::abs(wait));
 }
+
+/// How a disc moves towards a wall since its last meeting.
+struct Approach {
+  double b;        ///< the error of the closing speed, at most
+  double fastest;  ///< the closing speed, at most
+  double gap;      ///< at the last meeting, at least
+
+  Approach(const Disc& disc, const Bound& bound, const WallLine& wall) {
+    const Vector p = disc.position;
+    const Vector v = disc.velocity;
+    const double e = (bound.position + size_of(p) * wall.normal_error + wall.offset_error +
+                      8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius)) *
+                     kUp;
+    // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
+    const double rounding =
+        4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
+    b = (bound.velocity + size_of(v) * wall.normal_error + rounding) * kUp;
+    fastest = b - dot(wall.normal, v);
+    gap = gap_to(wall, disc, disc.time) - e;
+  }
+
+  bool never_meets() const { return fastest < 0 || (fastest == 0 && b == 0); }
+  /// The earliest time of contact. @param start  of the last meeting
+  double time_from(double start) const {
+    if (fastest == 0) return kNever;
+    return time_after(start, gap / fastest * (gap > 0 ? kDown : kUp));
+  }
+};
 
 }  // namespace
 
@@ -128,20 +156,17 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
 
 double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
                         double top_speed) {
-  const Vector p = disc.position;
-  const Vector v = disc.velocity;
-  const double e = (bound.position + size_of(p) * wall.normal_error + wall.offset_error +
-                    8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius)) *
-                   kUp;
-  // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
-  const double rounding =
-      4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
-  const double b = (bound.velocity + size_of(v) * wall.normal_error + rounding) * kUp;
-  const double fastest = b - dot(wall.normal, v);
-  if (fastest < 0 || (fastest == 0 && b == 0)) return kNever;
-  const double gap = gap_to(wall, disc, disc.time) - e;
-  if (!(gap > 8 * top_speed * bound.time_error)) return time_before(disc.time, bound.time_error);
-  return fastest == 0 ? kNever : time_after(disc.time, gap / fastest * kDown);
+  const Approach approach(disc, bound, wall);
+  if (approach.never_meets()) return kNever;
+  if (!(approach.gap > 8 * top_speed * bound.time_error)) {
+    return time_before(disc.time, bound.time_error);
+  }
+  return approach.time_from(disc.time);
+}
+
+double earliest_meeting_aside(const Disc& disc, const Bound& bound, const WallLine& wall) {
+  const Approach approach(disc, bound, wall);
+  return approach.never_meets() ? kNever : approach.time_from(disc.time);
 }
 
 std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a, const Disc& b,

@@ -70,13 +70,22 @@ class Stepper final : public DiscStepper {
     return number_ + static_cast<std::uint32_t>(system_.walls.size());
   }
 
+  /// Whether the order in which a disc meets both does not matter: neither changes how the disc
+  /// moves towards the other. True of a wall along x and one along y.
+  bool are_independent(std::uint32_t one, std::uint32_t other) const {
+    if (is_disc(one) || is_disc(other) || one == kNobody || other == kNobody) return false;
+    const WallLine& a = wall_of(one);
+    const WallLine& b = wall_of(other);
+    return a.normal_error == 0 && b.normal_error == 0 && dot(a.normal, b.normal) == 0;
+  }
+
   void plan_all();
   void plan(std::uint32_t disc);
   void plan_meeting(std::uint32_t disc, std::uint32_t partner);
   void plan_end_of_margin(std::uint32_t disc);
   bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
   bool propose(std::uint32_t disc, const Plan& proposal);
-  static bool note_rival(Plan& plan, const Plan& loser);
+  bool note_rival(Plan& plan, const Plan& loser) const;
   static bool has_rival(const Plan& plan) { return plan.rival.possible < plan.time; }
   std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
   template <typename Planned>
@@ -139,7 +148,8 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
   if (is_certain()) {
     const double start = is_disc(partner) ? std::max(own.time, discs_[partner].time) : own.time;
     proposal.possible = earliest(disc, partner);
-    proposal.is_doubt = proposal.time == kNever || proposal.possible < start;
+    const bool may_be_before = proposal.possible < start && !are_independent(own.last, partner);
+    proposal.is_doubt = proposal.time == kNever || may_be_before;
     if (proposal.is_doubt) proposal.time = proposal.possible;
   }
   if (proposal.time == kNever) return;
@@ -191,8 +201,9 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
 }
 
 /// @return whether it becomes the rival of the disc's plan, and may be before it
-bool Stepper::note_rival(Plan& plan, const Plan& loser) {
+bool Stepper::note_rival(Plan& plan, const Plan& loser) const {
   if (loser.possible >= plan.rival.possible || loser.partner == plan.partner) return false;
+  if (are_independent(loser.partner, plan.partner) && !loser.is_doubt) return false;
   plan.rival = {loser.possible, loser.partner, loser.meetings};
   return has_rival(plan);
 }
@@ -348,6 +359,9 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
     return earliest_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner],
                             top_speed_);
   }
+  if (are_independent(discs_[disc].last, partner)) {
+    return earliest_meeting_aside(discs_[disc], bounds[disc], wall_of(partner));
+  }
   return earliest_meeting(discs_[disc], bounds[disc], wall_of(partner), top_speed_);
 }
 
@@ -356,6 +370,7 @@ double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
   double soonest = kNever;
   const auto look_at = [&](std::uint32_t other) {
     if (other == body || other == excepted || have_just_met(body, other)) return;
+    if (are_independent(other, excepted)) return;
     soonest = std::min(soonest, earliest(body, other));
   };
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
