@@ -1,6 +1,7 @@
 #include "support/disc_certainty.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,9 +62,9 @@ class Comparison {
  private:
   void take_certain_steps(std::size_t limit) {
     while (steps_.size() < limit) {
-      const std::optional<SteppedCollision> step = engine_->step();
+      const std::optional<SteppedCollision> step = next_step();
       if (!step) {
-        check_.is_complete = engine_->certain_until() == kForEver;
+        check_.is_complete = engine_->certain_until() == kForEver && !is_out_of_range_;
         break;
       }
       const bool is_pair = step->second < system_.bodies.size();
@@ -75,6 +76,16 @@ class Comparison {
     until_ = engine_->certain_until();
     std::erase_if(steps_, [&](const BoundedStep& s) { return s.step.time.hi >= until_; });
     queues_.resize(system_.bodies.size());
+  }
+
+  /// Between walls that close in, speeds leave the range of a double some day.
+  std::optional<SteppedCollision> next_step() {
+    try {
+      return engine_->step();
+    } catch (const SimulationError&) {
+      is_out_of_range_ = true;
+      return std::nullopt;
+    }
   }
 
   std::vector<const BoundedStep*>& queue_of(std::uint32_t body) { return queues_[body]; }
@@ -186,6 +197,7 @@ class Comparison {
   std::unique_ptr<DiscStepper> engine_;
   PreciseDiscs truth_;
   double until_ = kForEver;
+  bool is_out_of_range_ = false;
   std::vector<BoundedStep> steps_ = {};
   std::vector<std::vector<const BoundedStep*>> queues_ = {};
   std::deque<BoundedStep> swapped_ = {};

@@ -18,6 +18,14 @@ constexpr double kTiny = 0x1p-900;
 
 double size_of(Vector a) { return std::abs(a.x) + std::abs(a.y); }
 
+/// What a wall's motion adds to the errors of its place and of a closing speed; 0 if it rests.
+double place_error(const WallLine& wall, double time) {
+  return (wall.speed_error + 8 * kUnit * std::abs(wall.speed)) * time;
+}
+double speed_error(const WallLine& wall) {
+  return wall.speed_error + 4 * kUnit * std::abs(wall.speed);
+}
+
 /// At least |w|, even if its square underflows.
 double speed_above(Vector w) { return length(w) * kUp + 0x1p-440; }
 
@@ -109,13 +117,14 @@ struct Approach {
     const Vector p = disc.position;
     const Vector v = disc.velocity;
     const double e = (bound.position + size_of(p) * wall.normal_error + wall.offset_error +
-                      8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius)) *
+                      8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius) +
+                      place_error(wall, disc.time)) *
                      kUp;
     // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
     const double rounding =
         4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
-    b = (bound.velocity + size_of(v) * wall.normal_error + rounding) * kUp;
-    fastest = b - dot(wall.normal, v);
+    b = (bound.velocity + size_of(v) * wall.normal_error + rounding + speed_error(wall)) * kUp;
+    fastest = b + closing_speed(wall, disc);
     gap = gap_to(wall, disc, disc.time) - e;
   }
 
@@ -202,14 +211,16 @@ std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& boun
   const Vector there = position_at(disc, time);
   MeetingError meeting;
   meeting.drift_a = drift(disc, bound, time);
-  meeting.speed = speed_above(disc.velocity);
+  meeting.speed = speed_above(disc.velocity) + std::abs(wall.speed) * kUp;
   meeting.normal_error = wall.normal_error;
   meeting.residual =
       (std::abs(gap_to(wall, disc, time)) + size_of(there) * wall.normal_error + wall.offset_error +
-       8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius)) *
+       8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius) +
+       place_error(wall, time)) *
       kUp;
-  const double error = (bound.velocity + meeting.speed * (wall.normal_error + 4 * kUnit)) * kUp;
-  const double surely = -dot(wall.normal, disc.velocity) - error;
+  const double error =
+      (bound.velocity + meeting.speed * (wall.normal_error + 4 * kUnit) + speed_error(wall)) * kUp;
+  const double surely = closing_speed(wall, disc) - error;
   if (!(surely > 0)) return std::nullopt;
   meeting.time_error = (meeting.drift_a + meeting.residual) / surely * kUp;
   return meeting;
@@ -246,11 +257,11 @@ void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bou
   if (mass_b != kNever) bound_b = after(before_b, before_a, share_b, share_a, b);
 }
 
-void widen(const MeetingError& meeting, const WallLine& wall, Bound& bound) {
-  // Upright and level walls negate one part of the velocity, which rounds nothing.
-  if (wall.normal_error > 0) {
+void widen(const MeetingError& meeting, const WallLine& wall, double restitution, Bound& bound) {
+  // Elastic upright and level walls at rest negate one part of the velocity, which rounds nothing.
+  if (wall.normal_error > 0 || wall.speed != 0 || restitution != 1) {
     const double turned = meeting.speed * (5 * wall.normal_error + 16 * kUnit);
-    bound.velocity = (bound.velocity + turned) * kUp + kTiny;
+    bound.velocity = (bound.velocity + turned + 2 * speed_error(wall)) * kUp + kTiny;
   }
   bound.position = (meeting.drift_a + 2 * meeting.residual) * kUp + kTiny;
   bound.time_error = meeting.time_error;

@@ -47,6 +47,6 @@ std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& boun
 /// @param a, b  after the meeting
 void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
            double mass_b, Bound& bound_b);
-void widen(const MeetingError& meeting, const WallLine& wall, Bound& bound);
+void widen(const MeetingError& meeting, const WallLine& wall, double restitution, Bound& bound);
 
 }  // namespace piblocks::discs

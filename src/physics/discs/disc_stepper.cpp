@@ -50,6 +50,9 @@ class Stepper final : public DiscStepper {
         plans_(number_),
         queue_(number_) {
     for (std::uint32_t disc = 0; disc < number_; ++disc) raise_top_speed(disc);
+    for (const WallLine& wall : system_.walls) {
+      top_speed_ = std::max(top_speed_, std::abs(wall.speed) * (1 + 0x1p-40));
+    }
     plan_all();
   }
 
@@ -99,7 +102,8 @@ class Stepper final : public DiscStepper {
   void reflect_disc(std::uint32_t disc, std::uint32_t wall, double time);
   void count_meeting(std::uint32_t disc, std::uint32_t partner, double time);
   void renew_cells(double time);
-  Motion motion_of(std::uint32_t disc) const;
+  Vector place_of(std::uint32_t disc, double time) const;
+  Motion motion_of(std::uint32_t disc, double time) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
   double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
@@ -123,16 +127,16 @@ class Stepper final : public DiscStepper {
 
 void Stepper::plan_all() {
   for (Plan& plan : plans_) plan = Plan{};
-  for (std::uint32_t disc = 0; disc < number_; ++disc) {
-    if (system_.is_movable(disc)) plan(disc);
-  }
+  for (std::uint32_t disc = 0; disc < number_; ++disc) plan(disc);
 }
 
 void Stepper::plan(std::uint32_t disc) {
   plans_[disc] = Plan{};
   plans_[disc].crossing = cells_.crossing_time(disc);
-  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
-  cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  if (system_.is_movable(disc)) {
+    for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
+    cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  }
   if (is_certain()) plan_end_of_margin(disc);
   enqueue(disc);
 }
@@ -240,7 +244,14 @@ void Stepper::enqueue(std::uint32_t disc) {
 }
 
 void Stepper::cross(std::uint32_t disc) {
-  cells_.cross(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  cells_.cross(disc, [&](std::uint32_t other) {
+    if (system_.is_movable(disc)) {
+      plan_meeting(disc, other);
+    } else if (system_.is_movable(other)) {
+      plan_meeting(other, disc);
+      enqueue(other);
+    }
+  });
   plans_[disc].crossing = cells_.crossing_time(disc);
   enqueue(disc);
 }
@@ -273,13 +284,13 @@ SteppedCollision Stepper::meet(std::uint32_t disc, std::uint32_t partner, double
   if (is_disc(partner)) {
     std::tie(step.first, step.second) = std::minmax(disc, partner);
     collide_discs(step.first, step.second, time);
-    step.second_after = motion_of(step.second);
+    step.second_after = motion_of(step.second, time);
   } else {
     step.first = disc;
     step.second = partner;
     reflect_disc(disc, partner, time);
   }
-  step.first_after = motion_of(step.first);
+  step.first_after = motion_of(step.first, time);
   if (!std::isfinite(step.time.hi)) {
     throw SimulationError(fmt::format(
         "simulation: bodies {} and {}: the time of a collision is out of the range of a double",
@@ -297,7 +308,8 @@ void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double ti
   count_meeting(second, first, time);
   Disc& a = discs_[first];
   Disc& b = discs_[second];
-  collide(a, system_.masses[first], b, system_.masses[second]);
+  collide(a, system_.masses[first], b, system_.masses[second],
+          place_of(second, time) - place_of(first, time), system_.restitution(first, second));
   if (!meeting) return;
   widen(*meeting, a, system_.masses[first], system_.bounds[first], b, system_.masses[second],
         system_.bounds[second]);
@@ -308,9 +320,10 @@ void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double ti
 void Stepper::reflect_disc(std::uint32_t disc, std::uint32_t wall, double time) {
   const auto meeting = is_certain() ? certify(disc, wall, time) : std::nullopt;
   count_meeting(disc, wall, time);
-  reflect(discs_[disc], wall_of(wall));
+  const double restitution = system_.restitution(disc, wall);
+  reflect(discs_[disc], wall_of(wall), restitution);
   if (!meeting) return;
-  widen(*meeting, wall_of(wall), system_.bounds[disc]);
+  widen(*meeting, wall_of(wall), restitution, system_.bounds[disc]);
   raise_top_speed(disc);
 }
 
@@ -332,19 +345,24 @@ void Stepper::renew_cells(double time) {
   plan_all();
 }
 
-Motion Stepper::motion_of(std::uint32_t disc) const {
+/// Collisions do not advance immovable discs, whose flight has no error but that of the start.
+Vector Stepper::place_of(std::uint32_t disc, double time) const {
+  return system_.is_movable(disc) ? discs_[disc].position : position_at(discs_[disc], time);
+}
+
+Motion Stepper::motion_of(std::uint32_t disc, double time) const {
   constexpr double kMost = 0x1p450;  // squares of the engine's numbers remain finite
-  const Disc& moved = discs_[disc];
+  const Vector place = place_of(disc, time);
+  const Vector velocity = discs_[disc].velocity;
   const Units& units = system_.units;
-  const Motion motion = {{moved.position.x * units.length, moved.position.y * units.length},
-                         {moved.velocity.x * units.speed, moved.velocity.y * units.speed}};
+  const Motion motion = {{place.x * units.length, place.y * units.length},
+                         {velocity.x * units.speed, velocity.y * units.speed}};
   const auto is_in_range = [](double own, double outside) {
     return std::abs(own) < kMost && std::isfinite(outside);
   };
-  if (!is_in_range(moved.position.x, motion.position[0]) ||
-      !is_in_range(moved.position.y, motion.position[1]) ||
-      !is_in_range(moved.velocity.x, motion.velocity[0]) ||
-      !is_in_range(moved.velocity.y, motion.velocity[1])) {
+  if (!is_in_range(place.x, motion.position[0]) || !is_in_range(place.y, motion.position[1]) ||
+      !is_in_range(velocity.x, motion.velocity[0]) ||
+      !is_in_range(velocity.y, motion.velocity[1])) {
     throw SimulationError(fmt::format(
         "simulation: body {}: its position or velocity is out of the range of a double", disc + 1));
   }
