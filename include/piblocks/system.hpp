@@ -37,7 +37,8 @@ struct Wall {
   std::optional<Rational> restitution = {};  ///< as of a Body
 };
 
-/// Bodies do not overlap each other nor the walls. Touching is allowed.
+/// Bodies do not overlap each other nor the walls. Touching is allowed, and so is an overlap within
+/// a few roundings of the coordinates to doubles, save of two_blocks_of().
 struct System {
   int dimensions = 1;  ///< 1: blocks on the x axis; 2: discs
   std::vector<Body> bodies = {};

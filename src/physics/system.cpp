@@ -3,6 +3,7 @@
 #include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -50,15 +51,33 @@ void check_body(const System& system, std::size_t index, bool is_pair, SceneProb
   problems.require_finite(key("velocity"), larger(body.velocity));
 }
 
+/// By how much a distance, whose square is given, is less than the reach; also if that is little.
+double shortfall(const Rational& reach, const Rational& square) {
+  const Rational share = square / Rational(reach * reach);
+  return to_double(reach) * to_double(Rational(1 - share)) / (1 + std::sqrt(to_double(share)));
+}
+
+/// How far a body may overlap what it touches: a few roundings of its coordinates. Numbers rounded
+/// to doubles, or to as many decimals, cannot say touching more exactly.
+Rational tolerance_of(const Body& body) {
+  return (abs(body.position[0]) + abs(body.position[1]) + body.size) >> 50;
+}
+Rational tolerance_of(const Wall& wall) { return (abs(wall.point[0]) + abs(wall.point[1])) >> 50; }
+Rational tolerated_size(const Body& body, const Rational& tolerance) {
+  return std::max(Rational(body.size - tolerance), Rational(body.size / 2));
+}
+
 void check_wall(const System& system, const Wall& wall, std::size_t index,
                 SceneProblems& problems) {
   const Body& body = system.bodies[index];
-  const Rational reach = body.size;
+  const Rational reach = tolerated_size(body, tolerance_of(body) + tolerance_of(wall));
   const Rational along = dot(difference(body.position, wall.point), wall.normal);
   const Rational square = dot(wall.normal, wall.normal);
-  const bool is_inside = along >= 0 && along * along >= reach * reach * square;
-  problems.require(is_inside, key_of(system, index, "position"), "= [{}, {}]: is beyond the {}",
-                   body.position[0], body.position[1], noun_of(wall));
+  if (along >= 0 && along * along >= reach * reach * square) return;
+  const double within = shortfall(body.size, Rational(along * along / square));
+  problems.add(key_of(system, index, "position"), "= [{}, {}]: reaches {:.3g} beyond the {}",
+               body.position[0], body.position[1],
+               along >= 0 ? within : 2 * to_double(body.size) - within, noun_of(wall));
 }
 
 /// What must be from left to right: wall, blue, red.
@@ -87,24 +106,29 @@ void check_places(const System& system, SceneProblems& problems) {
   }
 }
 
-/// Blocks that overlap their neighbour, or are beyond a wall.
+/// Blocks that overlap their neighbour, or are beyond a wall. The closed form needs exact gaps.
 void check_line(const System& system, SceneProblems& problems) {
   std::vector<std::size_t> order(system.bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return system.bodies[i].position[0]; });
+  const bool is_exact = two_blocks_of(system).has_value();
+  const auto tolerance = [&](const auto& one, const auto& other) {
+    return is_exact ? Rational(0) : Rational(tolerance_of(one) + tolerance_of(other));
+  };
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Body& body = system.bodies[order[i]];
     for (const Wall& wall : system.walls) {
       const Rational inside = sgn(wall.normal[0]) * (body.position[0] - wall.point[0]);
-      problems.require(inside >= body.size / 2, key_of(system, order[i], "position"),
-                       "= {}: reaches {} beyond the {}", body.position[0],
-                       Rational(body.size / 2 - inside), noun_of(wall));
+      problems.require(inside >= body.size / 2 - tolerance(body, wall),
+                       key_of(system, order[i], "position"), "= {}: reaches {} beyond the {}",
+                       body.position[0], Rational(body.size / 2 - inside), noun_of(wall));
     }
     if (i == 0) continue;
     const Body& left = system.bodies[order[i - 1]];
     const Rational gap = body.position[0] - left.position[0] - (body.size + left.size) / 2;
-    problems.require(gap >= 0, key_of(system, order[i], "position"), "= {}: overlaps {} by {}",
-                     body.position[0], name_of(system, order[i - 1]), Rational(-gap));
+    problems.require(gap >= -tolerance(body, left), key_of(system, order[i], "position"),
+                     "= {}: overlaps {} by {}", body.position[0], name_of(system, order[i - 1]),
+                     Rational(-gap));
   }
 }
 
@@ -193,12 +217,17 @@ class OverlapSweep {
 /// Discs that are beyond a wall, or overlap.
 void check_plane(const System& system, SceneProblems& problems) {
   const std::vector<Body>& bodies = system.bodies;
-  const OverlapSweep sweep(bodies);
+  // Each disc gives way by its own tolerance, so the sweep finds true overlaps exactly.
+  std::vector<Body> smaller = bodies;
+  for (Body& body : smaller) body.size = tolerated_size(body, tolerance_of(body));
+  const OverlapSweep sweep(smaller);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const Wall& wall : system.walls) check_wall(system, wall, i, problems);
     if (const auto& other = sweep.overlapped()[i]) {
-      problems.add(key_of(system, i, "position"), "= [{}, {}]: overlaps {}", bodies[i].position[0],
-                   bodies[i].position[1], name_of(system, *other));
+      const ExactVector apart = difference(bodies[i].position, bodies[*other].position);
+      problems.add(key_of(system, i, "position"), "= [{}, {}]: overlaps {} by {:.3g}",
+                   bodies[i].position[0], bodies[i].position[1], name_of(system, *other),
+                   shortfall(bodies[i].size + bodies[*other].size, dot(apart, apart)));
     }
   }
 }

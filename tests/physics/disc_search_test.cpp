@@ -80,6 +80,19 @@ TEST(DiscSearch, DiscsAtRestAndImmovableOnesAreFound) {
   expect_same_steps(system, 4000);
 }
 
+/// A piston, and immovable discs that fly: a small one from cell to cell, a large one with a zone.
+TEST(DiscSearch, MovingImmovableDiscsAreFound) {
+  TracedRandom random(38);
+  System system = random_gas(random, 200);
+  system.walls[1].velocity = {Rational(-1, 20), 0};
+  system.restitution = Rational(4, 5);
+  system.bodies[30].mass.reset();
+  system.bodies[30].velocity = {Rational(1, 3), Rational(1, 5)};
+  expect_same_steps(system, 3000);
+  put_into(system, {std::nullopt, {20, 20}, {Rational(-1, 4), Rational(1, 7)}, 6});
+  expect_same_steps(system, 3000);
+}
+
 TEST(DiscSearch, OrderOfListingDoesNotMatter) {
   TracedRandom random(35);
   const System system = random_gas(random, 60);

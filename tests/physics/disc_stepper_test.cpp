@@ -161,6 +161,64 @@ TEST(DiscStepper, SlantedWallReflects) {
   EXPECT_FALSE(stepper->step());
 }
 
+TEST(DiscStepper, RestitutionIsTheShareOfTheSpeedAtWhichDiscsPart) {
+  System system{.dimensions = 2,
+                .bodies = {{1, {0, 0}, {1, 0}}, {1, {5, 0}}, {1, {0, 9}, {0, 1}}},
+                .walls = {{"top", {0, 20}, {0, -1}}},
+                .restitution = Rational(1, 2),
+                .wall_restitution = Rational(3, 4)};
+  const auto speeds = [&] {
+    const auto stepper = make_disc_stepper(system);
+    const auto pair = stepper->step();
+    const auto wall = stepper->step();
+    EXPECT_EQ(stepper->certain_until(), kForEver);
+    return std::array{pair->first_after.velocity[0], pair->second_after.velocity[0],
+                      wall->first_after.velocity[1]};
+  };
+  EXPECT_EQ(speeds(), (std::array{0.25, 0.75, -0.75}));
+  system.bodies[1].restitution = Rational(0);
+  system.bodies[2].restitution = Rational(1);
+  EXPECT_EQ(speeds(), (std::array{0.5, 0.5, -0.75}));
+  system.walls[0].restitution = Rational(1, 4);
+  EXPECT_EQ(speeds(), (std::array{0.5, 0.5, -0.25}));
+}
+
+/// (1 + e) w more than the mirrored velocity: of a wall, and of a disc of infinite mass.
+TEST(DiscStepper, WhatNoCollisionMovesPushes) {
+  System system{.dimensions = 2,
+                .bodies = {{1, {0, 0}}},
+                .walls = {{"piston", {-9, 0}, {1, 0}, {2, 0}}},
+                .wall_restitution = Rational(1, 2)};
+  const auto pushed = make_disc_stepper(system)->step();
+  EXPECT_EQ(pair_of(*pushed), Pair(0, 1));
+  EXPECT_EQ(pushed->time.hi, 4);
+  EXPECT_EQ(pushed->first_after, (Motion{{0, 0}, {3, 0}}));
+  system.bodies = {{std::nullopt, {0, 20}, {0, -1}}, {1, {0, 12}}};
+  system.walls.clear();
+  const auto struck = make_disc_stepper(system)->step();
+  EXPECT_EQ(struck->time.hi, 6);
+  EXPECT_EQ(struck->first_after, (Motion{{0, 14}, {0, -1}}));
+  EXPECT_EQ(struck->second_after, (Motion{{0, 12}, {0, -1.5}}));
+}
+
+/// Just before each hit at the piston the free length times the closing speed is the same.
+TEST(DiscStepper, APistonKeepsTheAdiabaticInvariant) {
+  const System system{
+      .dimensions = 2,
+      .bodies = {{1, {5, 0}, {1, 0}, Rational(1, 2)}},
+      .walls = {{"left", {0, 0}, {1, 0}}, {"right", {10, 0}, {-1, 0}, {Rational(-1, 10), 0}}}};
+  const auto stepper = make_disc_stepper(system);
+  double speed = 1;
+  for (int k = 0; k < 20; ++k) {
+    const SteppedCollision step = *stepper->step();
+    EXPECT_NEAR((9 - step.time.hi / 10) * (speed + 0.1), 9.45, 1e-12);
+    speed = -step.first_after.velocity[0];
+    EXPECT_NEAR(speed, 1 + 0.2 * (k + 1), 1e-13);
+    stepper->step();
+  }
+  EXPECT_EQ(stepper->certain_until(), kForEver);
+}
+
 TEST(DiscStepper, ImmovableDiscStays) {
   const System system{
       .dimensions = 2,
@@ -188,12 +246,23 @@ TEST(DiscStepper, OneDiscInABoxIsCertainForLong) {
     ASSERT_TRUE(step);
     const double expected = step->second <= 2 ? 1.5 + 2 * across++ : 6.0 + 9 * up++;
     ASSERT_NEAR(step->time.hi, expected, 1e-9);
-    if (stepper->certain_until() != kForEver) {
-      // Only where it meets both walls at once can anything be in doubt.
-      EXPECT_NEAR(std::abs(std::remainder(step->time.hi - 1.5, 2)), 0, 1e-9);
-      return;
+  }
+  // Even where it meets both walls at once.
+  EXPECT_EQ(stepper->certain_until(), kForEver);
+}
+
+TEST(DiscStepper, DiscInACornerMeetsTheLowerWallFirst) {
+  const System system{.dimensions = 2, .bodies = {{1, {5, 5}, {-1, -1}}}, .walls = box(10, 10)};
+  const auto stepper = make_disc_stepper(system);
+  for (std::uint32_t k = 0; k < 10; ++k) {
+    for (const std::uint32_t wall : {1u, 3u}) {
+      const auto step = stepper->step();
+      ASSERT_TRUE(step);
+      EXPECT_EQ(pair_of(*step), Pair(0, wall + k % 2));
+      EXPECT_EQ(step->time.hi, 4 + 8 * k);
     }
   }
+  EXPECT_EQ(stepper->certain_until(), kForEver);
 }
 
 TEST(DiscStepper, NothingHappensToDiscsAtRest) {
@@ -266,6 +335,7 @@ TEST(DiscStepper, WallsComeAfterDiscs) {
   const auto stepper = make_disc_stepper(corner);
   EXPECT_EQ(pair_of(*stepper->step()), Pair(1, 2));
   EXPECT_EQ(pair_of(*stepper->step()), Pair(1, 3));
+  EXPECT_EQ(stepper->certain_until(), kForEver);
 }
 
 TEST(DiscStepper, PowersOfTwoScaleEverythingExactly) {

@@ -1,8 +1,14 @@
 // Which discs overlap at time 0: what problems_of() says of a system against all pairs.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <piblocks/system.hpp>
+#include <piblocks/log.hpp>
+#include <piblocks/two_blocks.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -12,10 +18,16 @@
 namespace piblocks {
 namespace {
 
+/// Less a few roundings of the coordinates.
+Rational solid_radius(const Body& body) {
+  const Rational scale = abs(body.position[0]) + abs(body.position[1]) + body.size;
+  return std::max(Rational(body.size - scale / power(2, 50)), Rational(body.size / 2));
+}
+
 bool overlap(const Body& a, const Body& b) {
   const Rational x = a.position[0] - b.position[0];
   const Rational y = a.position[1] - b.position[1];
-  const Rational reach = a.size + b.size;
+  const Rational reach = solid_radius(a) + solid_radius(b);
   return x * x + y * y < reach * reach;
 }
 
@@ -104,6 +116,66 @@ TEST(OverlapTest, FindsAllAmongDiscsOfAllSizes) {
     expect_right(system);
     if (HasFailure()) FAIL() << "run " << run;
   }
+}
+
+/// Unit discs that touch at an angle of so many degrees, with their numbers rounded.
+System touching_at(int degrees, bool to_decimals, double apart = 2) {
+  const double angle = degrees * std::numbers::pi / 180;
+  System system{2, {}, {}};
+  system.bodies.push_back({1, {0, 0}, {1, 0}});
+  Body other;
+  const std::array<double, 2> place = {apart * std::cos(angle), apart * std::sin(angle)};
+  for (const std::size_t axis : {0u, 1u}) {
+    other.position[axis] =
+        to_decimals ? parse_rational(fmt::format("{}", place[axis])) : Rational(place[axis]);
+  }
+  system.bodies.push_back(other);
+  return system;
+}
+
+TEST(OverlapTest, TouchingIsSaidInDoublesAndInDecimals) {
+  for (int degrees = 1; degrees < 90; ++degrees) {
+    for (const bool to_decimals : {false, true}) {
+      const System system = touching_at(degrees, to_decimals);
+      ASSERT_TRUE(problems_of(system).empty()) << degrees;
+      const auto log = make_log(system, 1);
+      ASSERT_EQ(log->count_at(1), 1) << degrees;
+      EXPECT_LT(log->collision(1).time.hi, 1e-13) << degrees;
+      const std::vector<Problem> problems =
+          problems_of(touching_at(degrees, to_decimals, 2 - 1e-9));
+      ASSERT_EQ(problems.size(), 1u) << degrees;
+      EXPECT_NE(problems[0].reason.find("overlaps body 1 by 1e-09"), std::string::npos)
+          << problems[0].reason;
+    }
+  }
+}
+
+TEST(OverlapTest, WallsAreTouchedWithinRounding) {
+  System system{2, {{1, {0, 0}}}, {{"slope", {0, 0}, {1, 1}}}};
+  const auto problem = [&](double x) {
+    system.bodies[0].position = {Rational(x), Rational(x)};
+    const std::vector<Problem> problems = problems_of(system);
+    return problems.empty() ? std::string() : problems[0].reason;
+  };
+  EXPECT_EQ(problem(std::sqrt(0.5)), "");
+  EXPECT_EQ(problem(std::nextafter(std::sqrt(0.5), 0)), "");
+  EXPECT_TRUE(
+      problem(std::sqrt(0.5) * (1 - 1e-9)).ends_with("reaches 1e-09 beyond the slope wall"));
+  EXPECT_TRUE(problem(0.0).ends_with("reaches 1 beyond the slope wall"));
+  EXPECT_TRUE(problem(-std::sqrt(2.0)).ends_with("reaches 3 beyond the slope wall"));
+}
+
+TEST(OverlapTest, BlocksTouchWithinRoundingUnlessInClosedForm) {
+  System system{1,
+                {{1, {Rational(0.1)}, {}, Rational(0.1)}, {1, {Rational(0.3)}, {}, Rational(0.3)}}};
+  system.bodies[1].position[0] = Rational(0.1) + Rational(0.05) + Rational(0.15) - 1 / power(2, 60);
+  EXPECT_TRUE(problems_of(system).empty());
+  system.walls = {{"wall", {0}, {1}}};
+  ASSERT_TRUE(two_blocks_of(system));
+  EXPECT_EQ(problems_of(system).size(), 1u);
+  system.walls.clear();
+  system.bodies[1].position[0] -= 1 / power(10, 9);
+  EXPECT_EQ(problems_of(system).size(), 1u);
 }
 
 /// All pairs of a column share a range of x; to compare them would take minutes.

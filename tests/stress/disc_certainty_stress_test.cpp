@@ -39,6 +39,21 @@ TEST(DiscCertaintyStress, OfRandomDiscs) { check_systems(random_discs, 30); }
 
 TEST(DiscCertaintyStress, OfDiscsThatMeetByCoincidence) { check_systems(random_coincidences, 3); }
 
+TEST(DiscCertaintyStress, OfDiscsThatLoseEnergyBetweenMovingWalls) {
+  check_systems([](Random& random) { return make_real(random, random_discs(random)); }, 20);
+}
+
+/// Rational numbers: again and again it meets two walls at once, or nearly.
+TEST(DiscCertaintyStress, OfADiscInABox) {
+  const auto draw = [](Random& random) {
+    System system{.dimensions = 2,
+                  .bodies = {{1, {2, 2}, {random.rational(-2, 2, 3), random.rational(-2, 2, 3)}}},
+                  .walls = box(random.rational(4, 8, 3), random.rational(4, 8, 3))};
+    return random.integer(0, 1) == 0 ? make_real(random, system) : system;
+  };
+  check_systems(draw, 100, 100);
+}
+
 TEST(DiscCertaintyStress, OfDiscsInCells) {
   const auto draw = [](Random& random) {
     System system = random_gas(random, static_cast<std::uint32_t>(random.integer(20, 30)), 3);

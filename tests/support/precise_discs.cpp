@@ -16,7 +16,7 @@ bool is_less(const Real& a, const Real& b) { return (a - b).sign() < 0; }
 
 }  // namespace
 
-PreciseDiscs::PreciseDiscs(const System& system, mpfr_prec_t bits) : bits_(bits) {
+PreciseDiscs::PreciseDiscs(const System& system, mpfr_prec_t bits) : system_(system), bits_(bits) {
   const auto vector = [&](const ExactVector& exact) {
     return Vector{Real(bits, exact[0]), Real(bits, exact[1])};
   };
@@ -30,7 +30,8 @@ PreciseDiscs::PreciseDiscs(const System& system, mpfr_prec_t bits) : bits_(bits)
   for (const Wall& wall : system.walls) {
     const Vector normal = vector(wall.normal);
     const Real norm = sqrt(dot(normal, normal));
-    walls_.push_back({{normal[0] / norm, normal[1] / norm}, vector(wall.point)});
+    walls_.push_back(
+        {{normal[0] / norm, normal[1] / norm}, vector(wall.point), vector(wall.velocity)});
   }
   times_.assign(bodies_.size(), std::vector<std::optional<Real>>(nobody));
   for (std::size_t body = 0; body < bodies_.size(); ++body) predict(body);
@@ -56,9 +57,10 @@ std::optional<Real> PreciseDiscs::pair_time(const Disc& a, const Disc& b) const 
 }
 
 std::optional<Real> PreciseDiscs::wall_time(const Disc& disc, const Line& wall) const {
-  const Real speed = dot(wall.normal, disc.flight.velocity);
+  const Real speed = dot(wall.normal, minus(disc.flight.velocity, wall.velocity));
   if (!disc.mass || speed.sign() >= 0) return std::nullopt;
-  const Real gap = dot(wall.normal, minus(disc.flight.position, wall.point)) - disc.radius;
+  const Vector point = plus(wall.point, disc.flight.time, wall.velocity);
+  const Real gap = dot(wall.normal, minus(disc.flight.position, point)) - disc.radius;
   if (gap.sign() <= 0) return disc.flight.time;
   return disc.flight.time - gap / speed;
 }
@@ -95,23 +97,28 @@ void PreciseDiscs::move(std::size_t body, const Real& time, std::size_t partner)
   disc.last = partner;
 }
 
-void PreciseDiscs::collide(std::size_t first, std::size_t second) {
+/// 1 + the coefficient of restitution
+Real PreciseDiscs::rebound(std::size_t first, std::size_t second) const {
+  return Real(bits_, Rational(1 + restitution_of(system_, first, second)));
+}
+
+void PreciseDiscs::collide(std::size_t first, std::size_t second, const Real& time) {
   Disc& a = bodies_[first];
   Disc& b = bodies_[second];
-  const Vector d = minus(b.flight.position, a.flight.position);
+  const Vector d = minus(position_at(b, time), position_at(a, time));
   const Vector w = minus(b.flight.velocity, a.flight.velocity);
-  const Real two(bits_, 2);
-  const Real change = two * dot(d, w) / dot(d, d);
+  const Real change = rebound(first, second) * dot(d, w) / dot(d, d);
   const Real one(bits_, 1);
   const Real share = !a.mass ? Real(bits_, 0) : !b.mass ? one : *b.mass / (*a.mass + *b.mass);
   a.flight.velocity = plus(a.flight.velocity, change * share, d);
   b.flight.velocity = plus(b.flight.velocity, change * (share - one), d);
 }
 
-void PreciseDiscs::reflect(std::size_t body, const Line& wall) {
+void PreciseDiscs::reflect(std::size_t body, std::size_t wall) {
   Flight& flight = bodies_[body].flight;
-  const Real speed = dot(wall.normal, flight.velocity);
-  flight.velocity = plus(flight.velocity, Real(bits_, -2) * speed, wall.normal);
+  const Line& line = walls_[wall - bodies_.size()];
+  const Real closing = dot(line.normal, minus(line.velocity, flight.velocity));
+  flight.velocity = plus(flight.velocity, rebound(body, wall) * closing, line.normal);
 }
 
 std::optional<PreciseDiscs::Step> PreciseDiscs::step() {
@@ -127,10 +134,10 @@ std::optional<PreciseDiscs::Step> PreciseDiscs::step() {
   move(next->first, next->time, next->second);
   if (next->second < bodies_.size()) {
     move(next->second, next->time, next->first);
-    collide(next->first, next->second);
+    collide(next->first, next->second, next->time);
     predict(next->second);
   } else {
-    reflect(next->first, walls_[next->second - bodies_.size()]);
+    reflect(next->first, next->second);
   }
   predict(next->first);
   return next;

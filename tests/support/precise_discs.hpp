@@ -43,6 +43,7 @@ class PreciseDiscs {
   struct Line {
     Vector normal;
     Vector point;
+    Vector velocity;
   };
 
   Vector position_at(const Disc& disc, const Real& time) const;
@@ -50,10 +51,12 @@ class PreciseDiscs {
   std::optional<Real> wall_time(const Disc& disc, const Line& wall) const;
   void predict(std::size_t body);
   void move(std::size_t body, const Real& time, std::size_t partner);
-  void collide(std::size_t first, std::size_t second);
-  void reflect(std::size_t body, const Line& wall);
+  void collide(std::size_t first, std::size_t second, const Real& time);
+  void reflect(std::size_t body, std::size_t wall);
+  Real rebound(std::size_t first, std::size_t second) const;
   bool have_just_met(std::size_t first, std::size_t second) const;
 
+  System system_;
   mpfr_prec_t bits_;
   std::vector<Disc> bodies_ = {};
   std::vector<Line> walls_ = {};

@@ -98,6 +98,28 @@ inline System random_discs(Random& random) {
   return system;
 }
 
+/// Collisions lose energy, by their own coefficients here and there; walls and immovable discs
+/// move.
+inline System make_real(Random& random, System system) {
+  const auto loss = [&]() -> Rational { return random.rational(0, 1, 7); };
+  system.restitution = loss();
+  system.wall_restitution = random.integer(0, 2) == 0 ? loss() : Rational(1);
+  const auto change = [&](auto& one) {
+    if (random.integer(0, 4) == 0) one.restitution = loss();
+  };
+  for (Body& body : system.bodies) {
+    change(body);
+    if (body.mass) continue;
+    for (Rational& part : body.velocity) part = random.rational(-1, 1, 9) / 4;
+  }
+  for (Wall& wall : system.walls) {
+    change(wall);
+    if (random.integer(0, 1) == 0) continue;
+    for (Rational& part : wall.velocity) part = random.rational(-1, 1, 9) / 10;
+  }
+  return system;
+}
+
 /// Positions, radii and velocities are few tenths, masses few whole numbers: discs graze, touch at
 /// the start, and meet several others at once, as far as numbers that no double holds tell.
 inline System random_coincidences(Random& random) {

@@ -18,6 +18,14 @@ constexpr double kTiny = 0x1p-900;
 
 double size_of(Vector a) { return std::abs(a.x) + std::abs(a.y); }
 
+/// What a wall's motion adds to the errors of its place and of a closing speed; 0 if it rests.
+double place_error(const WallLine& wall, double time) {
+  return (wall.speed_error + 8 * kUnit * std::abs(wall.speed)) * time;
+}
+double speed_error(const WallLine& wall) {
+  return wall.speed_error + 4 * kUnit * std::abs(wall.speed);
+}
+
 /// At least |w|, even if its square underflows.
 double speed_above(Vector w) { return length(w) * kUp + 0x1p-440; }
 
@@ -96,8 +104,37 @@ double time_before(double start, double time_error) {
 /// start + wait, rounded down
 double time_after(double start, double wait) {
   const double time = start + wait;
-  return time == kNever ? kNever : time - 2 * kUnit * time;
+  return time == kNever ? kNever : time - 2 * kUnit * (start + std::abs(wait));
 }
+
+/// How a disc moves towards a wall since its last meeting.
+struct Approach {
+  double b;        ///< the error of the closing speed, at most
+  double fastest;  ///< the closing speed, at most
+  double gap;      ///< at the last meeting, at least
+
+  Approach(const Disc& disc, const Bound& bound, const WallLine& wall) {
+    const Vector p = disc.position;
+    const Vector v = disc.velocity;
+    const double e = (bound.position + size_of(p) * wall.normal_error + wall.offset_error +
+                      8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius) +
+                      place_error(wall, disc.time)) *
+                     kUp;
+    // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
+    const double rounding =
+        4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
+    b = (bound.velocity + size_of(v) * wall.normal_error + rounding + speed_error(wall)) * kUp;
+    fastest = b + closing_speed(wall, disc);
+    gap = gap_to(wall, disc, disc.time) - e;
+  }
+
+  bool never_meets() const { return fastest < 0 || (fastest == 0 && b == 0); }
+  /// The earliest time of contact. @param start  of the last meeting
+  double time_from(double start) const {
+    if (fastest == 0) return kNever;
+    return time_after(start, gap / fastest * (gap > 0 ? kDown : kUp));
+  }
+};
 
 }  // namespace
 
@@ -128,20 +165,17 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
 
 double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
                         double top_speed) {
-  const Vector p = disc.position;
-  const Vector v = disc.velocity;
-  const double e = (bound.position + size_of(p) * wall.normal_error + wall.offset_error +
-                    8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius)) *
-                   kUp;
-  // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
-  const double rounding =
-      4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
-  const double b = (bound.velocity + size_of(v) * wall.normal_error + rounding) * kUp;
-  const double fastest = b - dot(wall.normal, v);
-  if (fastest < 0 || (fastest == 0 && b == 0)) return kNever;
-  const double gap = gap_to(wall, disc, disc.time) - e;
-  if (!(gap > 8 * top_speed * bound.time_error)) return time_before(disc.time, bound.time_error);
-  return fastest == 0 ? kNever : time_after(disc.time, gap / fastest * kDown);
+  const Approach approach(disc, bound, wall);
+  if (approach.never_meets()) return kNever;
+  if (!(approach.gap > 8 * top_speed * bound.time_error)) {
+    return time_before(disc.time, bound.time_error);
+  }
+  return approach.time_from(disc.time);
+}
+
+double earliest_meeting_aside(const Disc& disc, const Bound& bound, const WallLine& wall) {
+  const Approach approach(disc, bound, wall);
+  return approach.never_meets() ? kNever : approach.time_from(disc.time);
 }
 
 std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a, const Disc& b,
@@ -177,14 +211,16 @@ std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& boun
   const Vector there = position_at(disc, time);
   MeetingError meeting;
   meeting.drift_a = drift(disc, bound, time);
-  meeting.speed = speed_above(disc.velocity);
+  meeting.speed = speed_above(disc.velocity) + std::abs(wall.speed) * kUp;
   meeting.normal_error = wall.normal_error;
   meeting.residual =
       (std::abs(gap_to(wall, disc, time)) + size_of(there) * wall.normal_error + wall.offset_error +
-       8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius)) *
+       8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius) +
+       place_error(wall, time)) *
       kUp;
-  const double error = (bound.velocity + meeting.speed * (wall.normal_error + 4 * kUnit)) * kUp;
-  const double surely = -dot(wall.normal, disc.velocity) - error;
+  const double error =
+      (bound.velocity + meeting.speed * (wall.normal_error + 4 * kUnit) + speed_error(wall)) * kUp;
+  const double surely = closing_speed(wall, disc) - error;
   if (!(surely > 0)) return std::nullopt;
   meeting.time_error = (meeting.drift_a + meeting.residual) / surely * kUp;
   return meeting;
@@ -221,11 +257,11 @@ void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bou
   if (mass_b != kNever) bound_b = after(before_b, before_a, share_b, share_a, b);
 }
 
-void widen(const MeetingError& meeting, const WallLine& wall, Bound& bound) {
-  // Upright and level walls negate one part of the velocity, which rounds nothing.
-  if (wall.normal_error > 0) {
+void widen(const MeetingError& meeting, const WallLine& wall, double restitution, Bound& bound) {
+  // Elastic upright and level walls at rest negate one part of the velocity, which rounds nothing.
+  if (wall.normal_error > 0 || wall.speed != 0 || restitution != 1) {
     const double turned = meeting.speed * (5 * wall.normal_error + 16 * kUnit);
-    bound.velocity = (bound.velocity + turned) * kUp + kTiny;
+    bound.velocity = (bound.velocity + turned + 2 * speed_error(wall)) * kUp + kTiny;
   }
   bound.position = (meeting.drift_a + 2 * meeting.residual) * kUp + kTiny;
   bound.time_error = meeting.time_error;

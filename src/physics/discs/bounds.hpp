@@ -22,6 +22,9 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
                         double top_speed);
 double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
                         double top_speed);
+/// The same if the last meeting did not change how the disc moves towards the wall. It may be
+/// before that meeting.
+double earliest_meeting_aside(const Disc& disc, const Bound& bound, const WallLine& wall);
 
 /// A meeting that truly happens, with bounds of what is wrong with the computed one.
 struct MeetingError {
@@ -44,6 +47,6 @@ std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& boun
 /// @param a, b  after the meeting
 void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
            double mass_b, Bound& bound_b);
-void widen(const MeetingError& meeting, const WallLine& wall, Bound& bound);
+void widen(const MeetingError& meeting, const WallLine& wall, double restitution, Bound& bound);
 
 }  // namespace piblocks::discs

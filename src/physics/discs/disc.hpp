@@ -40,12 +40,14 @@ inline Vector position_at(const Disc& disc, double time) {
   return disc.position + (time - disc.time) * disc.velocity;
 }
 
-/// Centres keep dot(normal, centre) - offset >= radius.
+/// Centres keep dot(normal, centre) - offset - speed time >= radius.
 struct WallLine {
   Vector normal;  ///< of length 1
   double offset = 0;
+  double speed = 0;         ///< along the normal
   double normal_error = 0;  ///< bound of the length of the normal's error
   double offset_error = 0;
+  double speed_error = 0;
 };
 
 }  // namespace piblocks::discs

@@ -50,6 +50,9 @@ class Stepper final : public DiscStepper {
         plans_(number_),
         queue_(number_) {
     for (std::uint32_t disc = 0; disc < number_; ++disc) raise_top_speed(disc);
+    for (const WallLine& wall : system_.walls) {
+      top_speed_ = std::max(top_speed_, std::abs(wall.speed) * (1 + 0x1p-40));
+    }
     plan_all();
   }
 
@@ -70,13 +73,22 @@ class Stepper final : public DiscStepper {
     return number_ + static_cast<std::uint32_t>(system_.walls.size());
   }
 
+  /// Whether the order in which a disc meets both does not matter: neither changes how the disc
+  /// moves towards the other. True of a wall along x and one along y.
+  bool are_independent(std::uint32_t one, std::uint32_t other) const {
+    if (is_disc(one) || is_disc(other) || one == kNobody || other == kNobody) return false;
+    const WallLine& a = wall_of(one);
+    const WallLine& b = wall_of(other);
+    return a.normal_error == 0 && b.normal_error == 0 && dot(a.normal, b.normal) == 0;
+  }
+
   void plan_all();
   void plan(std::uint32_t disc);
   void plan_meeting(std::uint32_t disc, std::uint32_t partner);
   void plan_end_of_margin(std::uint32_t disc);
   bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
   bool propose(std::uint32_t disc, const Plan& proposal);
-  static bool note_rival(Plan& plan, const Plan& loser);
+  bool note_rival(Plan& plan, const Plan& loser) const;
   static bool has_rival(const Plan& plan) { return plan.rival.possible < plan.time; }
   std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
   template <typename Planned>
@@ -90,7 +102,8 @@ class Stepper final : public DiscStepper {
   void reflect_disc(std::uint32_t disc, std::uint32_t wall, double time);
   void count_meeting(std::uint32_t disc, std::uint32_t partner, double time);
   void renew_cells(double time);
-  Motion motion_of(std::uint32_t disc) const;
+  Vector place_of(std::uint32_t disc, double time) const;
+  Motion motion_of(std::uint32_t disc, double time) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
   double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
@@ -114,16 +127,16 @@ class Stepper final : public DiscStepper {
 
 void Stepper::plan_all() {
   for (Plan& plan : plans_) plan = Plan{};
-  for (std::uint32_t disc = 0; disc < number_; ++disc) {
-    if (system_.is_movable(disc)) plan(disc);
-  }
+  for (std::uint32_t disc = 0; disc < number_; ++disc) plan(disc);
 }
 
 void Stepper::plan(std::uint32_t disc) {
   plans_[disc] = Plan{};
   plans_[disc].crossing = cells_.crossing_time(disc);
-  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
-  cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  if (system_.is_movable(disc)) {
+    for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
+    cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  }
   if (is_certain()) plan_end_of_margin(disc);
   enqueue(disc);
 }
@@ -139,7 +152,8 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
   if (is_certain()) {
     const double start = is_disc(partner) ? std::max(own.time, discs_[partner].time) : own.time;
     proposal.possible = earliest(disc, partner);
-    proposal.is_doubt = proposal.time == kNever || proposal.possible < start;
+    const bool may_be_before = proposal.possible < start && !are_independent(own.last, partner);
+    proposal.is_doubt = proposal.time == kNever || may_be_before;
     if (proposal.is_doubt) proposal.time = proposal.possible;
   }
   if (proposal.time == kNever) return;
@@ -191,8 +205,9 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
 }
 
 /// @return whether it becomes the rival of the disc's plan, and may be before it
-bool Stepper::note_rival(Plan& plan, const Plan& loser) {
+bool Stepper::note_rival(Plan& plan, const Plan& loser) const {
   if (loser.possible >= plan.rival.possible || loser.partner == plan.partner) return false;
+  if (are_independent(loser.partner, plan.partner) && !loser.is_doubt) return false;
   plan.rival = {loser.possible, loser.partner, loser.meetings};
   return has_rival(plan);
 }
@@ -229,7 +244,14 @@ void Stepper::enqueue(std::uint32_t disc) {
 }
 
 void Stepper::cross(std::uint32_t disc) {
-  cells_.cross(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  cells_.cross(disc, [&](std::uint32_t other) {
+    if (system_.is_movable(disc)) {
+      plan_meeting(disc, other);
+    } else if (system_.is_movable(other)) {
+      plan_meeting(other, disc);
+      enqueue(other);
+    }
+  });
   plans_[disc].crossing = cells_.crossing_time(disc);
   enqueue(disc);
 }
@@ -262,13 +284,13 @@ SteppedCollision Stepper::meet(std::uint32_t disc, std::uint32_t partner, double
   if (is_disc(partner)) {
     std::tie(step.first, step.second) = std::minmax(disc, partner);
     collide_discs(step.first, step.second, time);
-    step.second_after = motion_of(step.second);
+    step.second_after = motion_of(step.second, time);
   } else {
     step.first = disc;
     step.second = partner;
     reflect_disc(disc, partner, time);
   }
-  step.first_after = motion_of(step.first);
+  step.first_after = motion_of(step.first, time);
   if (!std::isfinite(step.time.hi)) {
     throw SimulationError(fmt::format(
         "simulation: bodies {} and {}: the time of a collision is out of the range of a double",
@@ -286,7 +308,8 @@ void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double ti
   count_meeting(second, first, time);
   Disc& a = discs_[first];
   Disc& b = discs_[second];
-  collide(a, system_.masses[first], b, system_.masses[second]);
+  collide(a, system_.masses[first], b, system_.masses[second],
+          place_of(second, time) - place_of(first, time), system_.restitution(first, second));
   if (!meeting) return;
   widen(*meeting, a, system_.masses[first], system_.bounds[first], b, system_.masses[second],
         system_.bounds[second]);
@@ -297,9 +320,10 @@ void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double ti
 void Stepper::reflect_disc(std::uint32_t disc, std::uint32_t wall, double time) {
   const auto meeting = is_certain() ? certify(disc, wall, time) : std::nullopt;
   count_meeting(disc, wall, time);
-  reflect(discs_[disc], wall_of(wall));
+  const double restitution = system_.restitution(disc, wall);
+  reflect(discs_[disc], wall_of(wall), restitution);
   if (!meeting) return;
-  widen(*meeting, wall_of(wall), system_.bounds[disc]);
+  widen(*meeting, wall_of(wall), restitution, system_.bounds[disc]);
   raise_top_speed(disc);
 }
 
@@ -321,19 +345,24 @@ void Stepper::renew_cells(double time) {
   plan_all();
 }
 
-Motion Stepper::motion_of(std::uint32_t disc) const {
+/// Collisions do not advance immovable discs, whose flight has no error but that of the start.
+Vector Stepper::place_of(std::uint32_t disc, double time) const {
+  return system_.is_movable(disc) ? discs_[disc].position : position_at(discs_[disc], time);
+}
+
+Motion Stepper::motion_of(std::uint32_t disc, double time) const {
   constexpr double kMost = 0x1p450;  // squares of the engine's numbers remain finite
-  const Disc& moved = discs_[disc];
+  const Vector place = place_of(disc, time);
+  const Vector velocity = discs_[disc].velocity;
   const Units& units = system_.units;
-  const Motion motion = {{moved.position.x * units.length, moved.position.y * units.length},
-                         {moved.velocity.x * units.speed, moved.velocity.y * units.speed}};
+  const Motion motion = {{place.x * units.length, place.y * units.length},
+                         {velocity.x * units.speed, velocity.y * units.speed}};
   const auto is_in_range = [](double own, double outside) {
     return std::abs(own) < kMost && std::isfinite(outside);
   };
-  if (!is_in_range(moved.position.x, motion.position[0]) ||
-      !is_in_range(moved.position.y, motion.position[1]) ||
-      !is_in_range(moved.velocity.x, motion.velocity[0]) ||
-      !is_in_range(moved.velocity.y, motion.velocity[1])) {
+  if (!is_in_range(place.x, motion.position[0]) || !is_in_range(place.y, motion.position[1]) ||
+      !is_in_range(velocity.x, motion.velocity[0]) ||
+      !is_in_range(velocity.y, motion.velocity[1])) {
     throw SimulationError(fmt::format(
         "simulation: body {}: its position or velocity is out of the range of a double", disc + 1));
   }
@@ -348,6 +377,9 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
     return earliest_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner],
                             top_speed_);
   }
+  if (are_independent(discs_[disc].last, partner)) {
+    return earliest_meeting_aside(discs_[disc], bounds[disc], wall_of(partner));
+  }
   return earliest_meeting(discs_[disc], bounds[disc], wall_of(partner), top_speed_);
 }
 
@@ -356,6 +388,7 @@ double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
   double soonest = kNever;
   const auto look_at = [&](std::uint32_t other) {
     if (other == body || other == excepted || have_just_met(body, other)) return;
+    if (are_independent(other, excepted)) return;
     soonest = std::min(soonest, earliest(body, other));
   };
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);

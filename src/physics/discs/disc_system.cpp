@@ -61,6 +61,9 @@ Exponents exponents_of(const System& system) {
     for (const Rational& part : body.velocity) speed = std::max(speed, exponent_of(part));
     if (body.mass) mass = std::max(mass, exponent_of(*body.mass));
   }
+  for (const Wall& wall : system.walls) {
+    for (const Rational& part : wall.velocity) speed = std::max(speed, exponent_of(part));
+  }
   return {length.value_or(0), speed.value_or(0), mass.value_or(0)};
 }
 
@@ -100,12 +103,15 @@ WallLine wall_line(const Wall& wall, const Exponents& exponents) {
   constexpr mpfr_prec_t kBits = 256;
   const Rational square = wall.normal[0] * wall.normal[0] + wall.normal[1] * wall.normal[1];
   const Rational along = wall.normal[0] * wall.point[0] + wall.normal[1] * wall.point[1];
+  const Rational pace = wall.normal[0] * wall.velocity[0] + wall.normal[1] * wall.velocity[1];
   const Real norm = sqrt(Real(kBits, square));
   WallLine line;
   line.normal = {(Real(kBits, wall.normal[0]) / norm).to_double(),
                  (Real(kBits, wall.normal[1]) / norm).to_double()};
   const Real offset = Real(kBits, scaled_down(along, exponents.length)) / norm;
   line.offset = offset.to_double();
+  const Real speed = Real(kBits, scaled_down(pace, exponents.speed)) / norm;
+  line.speed = speed.to_double();
   if (!(std::abs(line.offset) < kMostLength)) {
     throw SimulationError(fmt::format(
         "simulation: wall {}: its distance is out of the range of a double beside the discs; use "
@@ -113,13 +119,36 @@ WallLine wall_line(const Wall& wall, const Exponents& exponents) {
         wall.name));
   }
   const bool is_axis = wall.normal[0] == 0 || wall.normal[1] == 0;
-  const bool is_exact = is_axis && offset.to_rational() == Rational(line.offset);
+  const auto error = [&](const Real& exact, double value) {
+    const bool is_exact = is_axis && exact.to_rational() == Rational(value);
+    return is_exact ? 0 : 0x1p-52 * std::abs(value) + 0x1p-1000;
+  };
   line.normal_error = is_axis ? 0 : 0x1p-52;
-  line.offset_error = is_exact ? 0 : 0x1p-52 * std::abs(line.offset) + 0x1p-1000;
+  line.offset_error = error(offset, line.offset);
+  line.speed_error = pace == 0 ? 0 : error(speed, line.speed);
   return line;
 }
 
+std::vector<std::array<double, 2>> restitutions_of(const System& system) {
+  if (is_elastic(system)) return {};
+  std::vector<std::array<double, 2>> result;
+  const auto add = [&](const std::optional<Rational>& own) {
+    result.push_back({to_double(own.value_or(system.restitution)),
+                      to_double(own.value_or(system.wall_restitution))});
+  };
+  for (const Body& body : system.bodies) add(body.restitution);
+  for (const Wall& wall : system.walls) add(wall.restitution);
+  return result;
+}
+
 }  // namespace
+
+double DiscSystem::restitution(std::uint32_t first, std::uint32_t second) const {
+  if (restitutions.empty()) return 1;
+  const bool is_free = is_movable(first) && second < discs.size() && is_movable(second);
+  const std::size_t kind = is_free ? 0 : 1;
+  return std::min(restitutions[first][kind], restitutions[second][kind]);
+}
 
 DiscSystem disc_system_of(const System& system) {
   const Exponents exponents = exponents_of(system);
@@ -136,6 +165,7 @@ DiscSystem disc_system_of(const System& system) {
                   std::ldexp(1.0, static_cast<int>(time))};
   for (const Body& body : system.bodies) add_disc(result, body, exponents);
   for (const Wall& wall : system.walls) result.walls.push_back(wall_line(wall, exponents));
+  result.restitutions = restitutions_of(system);
   return result;
 }
 

@@ -4,6 +4,8 @@
 
 #include <piblocks/system.hpp>
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "physics/discs/disc.hpp"
@@ -30,10 +32,16 @@ struct DiscSystem {
   std::vector<double> masses = {};  ///< relative to the heaviest; kNever: immovable
   std::vector<Bound> bounds = {};
   std::vector<WallLine> walls = {};
+  /// Of discs, then of walls, each at most: beside something movable, beside something immovable.
+  /// Empty if all collisions are elastic.
+  std::vector<std::array<double, 2>> restitutions = {};
   Units units = {};
   bool has_immovable = false;  ///< whether any disc is immovable
 
   bool is_movable(std::uint32_t disc) const { return !has_immovable || masses[disc] != kNever; }
+  /// @param first   a disc
+  /// @param second  a disc, or the number of discs + a wall
+  double restitution(std::uint32_t first, std::uint32_t second) const;
 };
 
 /// @param system  has no problems.

@@ -47,30 +47,36 @@ inline double meeting_time(const Disc& a, const Disc& b) {
 
 /// How far a disc's edge is from a wall at a time.
 inline double gap_to(const WallLine& wall, const Disc& disc, double time) {
-  return dot(wall.normal, position_at(disc, time)) - wall.offset - disc.radius;
+  return dot(wall.normal, position_at(disc, time)) - (wall.offset + wall.speed * time) -
+         disc.radius;
+}
+
+inline double closing_speed(const WallLine& wall, const Disc& disc) {
+  return wall.speed - dot(wall.normal, disc.velocity);
 }
 
 inline double meeting_time(const Disc& disc, const WallLine& wall) {
-  const double closing_speed = -dot(wall.normal, disc.velocity);
-  return disc.time + time_to_contact(gap_to(wall, disc, disc.time), closing_speed).value_or(kNever);
+  const double gap = gap_to(wall, disc, disc.time);
+  return disc.time + time_to_contact(gap, closing_speed(wall, disc)).value_or(kNever);
 }
 
-/// Velocities after an elastic collision. Nothing happens if rounding has made the discs recede.
-inline void collide(Disc& a, double mass_a, Disc& b, double mass_b) {
-  const Vector apart = b.position - a.position;
+/// Velocities after a collision. Nothing happens if rounding has made the discs recede.
+/// @param apart  from the centre of a to that of b
+inline void collide(Disc& a, double mass_a, Disc& b, double mass_b, Vector apart,
+                    double restitution) {
   const Vector normal = (1 / length(apart)) * apart;
   const double closing_speed = dot(a.velocity - b.velocity, normal);
   if (!(closing_speed > 0)) return;
   const double share_a = share_of_change(mass_a, mass_b);
   const double share_b = share_of_change(mass_b, mass_a);
-  a.velocity = a.velocity - velocity_change(closing_speed, share_a) * normal;
-  b.velocity = b.velocity + velocity_change(closing_speed, share_b) * normal;
+  a.velocity = a.velocity - velocity_change(closing_speed, share_a, restitution) * normal;
+  b.velocity = b.velocity + velocity_change(closing_speed, share_b, restitution) * normal;
 }
 
-inline void reflect(Disc& disc, const WallLine& wall) {
-  const double closing_speed = -dot(wall.normal, disc.velocity);
-  if (!(closing_speed > 0)) return;
-  disc.velocity = disc.velocity + velocity_change(closing_speed, 1.0) * wall.normal;
+inline void reflect(Disc& disc, const WallLine& wall, double restitution) {
+  const double closing = closing_speed(wall, disc);
+  if (!(closing > 0)) return;
+  disc.velocity = disc.velocity + velocity_change(closing, 1.0, restitution) * wall.normal;
 }
 
 }  // namespace piblocks::discs
