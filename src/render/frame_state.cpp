@@ -122,7 +122,8 @@ std::array<double, 2> contact_of(const System& system, const Collision& collisio
     return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
   }
   const Wall& wall = system.walls[collision.second - system.bodies.size()];
-  if (is_line) return {to_double(wall.point[0]), 0};
+  const double way = to_double(wall.velocity[0]) * collision.time.hi;
+  if (is_line) return {to_double(wall.point[0]) + way, 0};
   const std::array normal{to_double(wall.normal[0]), to_double(wall.normal[1])};
   const double share = reach / std::sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
   return {from[0] - share * normal[0], from[1] - share * normal[1]};
