@@ -74,7 +74,9 @@ class Comparison {
                          is_pair ? engine_->bound_of(step->second) : discs::Bound{}}});
     }
     until_ = engine_->certain_until();
-    std::erase_if(steps_, [&](const BoundedStep& s) { return s.step.time.hi >= until_; });
+    // The last ones may lack what happens at the same time.
+    const double last = steps_.size() < limit ? until_ : steps_.back().step.time.hi * (1 - 0x1p-30);
+    std::erase_if(steps_, [&](const BoundedStep& s) { return s.step.time.hi >= last; });
     queues_.resize(system_.bodies.size());
   }
 
