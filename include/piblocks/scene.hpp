@@ -126,9 +126,11 @@ inline constexpr std::size_t kMaxLine_bytes = 1000;
 
 /// @throws UsageError that lists the names there are.
 Theme parse_theme(std::string_view name);
+Contacts parse_contacts(std::string_view name);
 Overlay parse_overlay(std::string_view name);
 Panel parse_panel(std::string_view name);
 std::string exact_text(Theme theme);
+std::string exact_text(Contacts contacts);
 std::string exact_text(Overlay overlay);
 std::string exact_text(Panel panel);
 /// All names, with commas, for messages and help.

@@ -59,6 +59,9 @@ std::vector<Value> parse_list(const Values& values, Value (*parse)(std::string_v
 void read(Rational& target, const Values& values) { target = parse_rational(single(values)); }
 void read(Instant& target, const Values& values) { target = parse_instant(single(values)); }
 void read(Theme& target, const Values& values) { target = parse_theme(single(values)); }
+void read(std::optional<Contacts>& target, const Values& values) {
+  target = parse_contacts(single(values));
+}
 void read(std::string& target, const Values& values) { target = single(values); }
 void read(Values& target, const Values& values) { target = list_of(values); }
 void read(std::optional<FrameSize>& target, const Values& values) { target = parse_size(values); }
@@ -78,6 +81,7 @@ void read(bool& target, const Values& values) { target = parse_bool(values); }
 Values texts_of(const Rational& value) { return {value.get_str()}; }
 Values texts_of(const Instant& value) { return {exact_text(value)}; }
 Values texts_of(Theme value) { return {exact_text(value)}; }
+Values texts_of(Contacts value) { return {exact_text(value)}; }
 Values texts_of(const std::string& value) { return {value}; }
 Values texts_of(const Values& value) { return value; }
 Values texts_of(const Range& value) { return {value.low.get_str(), value.high.get_str()}; }
@@ -239,6 +243,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     color_key<1>("red.color"),
     key<&Scene::system, &System::restitution>("blocks.restitution"),
     key<&Scene::system, &System::wall_restitution>("wall.restitution"),
+    key<&Scene::system, &System::contacts>("contacts"),
     key<&Scene::view, &View::x>("view.x"),
     key<&Scene::view, &View::y>("view.y"),
     SceneKey{"view.size", set_size, size_of},

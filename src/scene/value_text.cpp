@@ -22,6 +22,8 @@ struct Name {
   Value value;
 };
 
+constexpr auto kContacts = std::to_array<Name<Contacts>>(
+    {{"at-once", Contacts::at_once}, {"in-order", Contacts::in_order}});
 constexpr auto kThemes = std::to_array<Name<Theme>>({{"article", Theme::article},
                                                      {"lecture", Theme::lecture},
                                                      {"lecture-light", Theme::lecture_light},
@@ -102,6 +104,7 @@ bool Show::has(Overlay overlay) const noexcept {
 }
 
 Theme parse_theme(std::string_view name) { return parse(kThemes, name); }
+Contacts parse_contacts(std::string_view name) { return parse(kContacts, name); }
 Overlay parse_overlay(std::string_view name) {
   if (!has(kOverlays, name) && has(kPanels, name)) {
     throw UsageError("is a diagram; name it in show.panels (--panels)");
@@ -117,6 +120,7 @@ Panel parse_panel(std::string_view name) {
 Split parse_split(std::string_view name) { return parse(kSplits, name); }
 
 std::string exact_text(Theme theme) { return text_of(kThemes, theme); }
+std::string exact_text(Contacts contacts) { return text_of(kContacts, contacts); }
 std::string exact_text(Overlay overlay) { return text_of(kOverlays, overlay); }
 std::string exact_text(Panel panel) { return text_of(kPanels, panel); }
 std::string exact_text(Split split) { return text_of(kSplits, split); }
