@@ -16,6 +16,8 @@ constexpr double kUnitRoundoff = 0x1p-53;
 /// Roundings of an advanced position, and of a velocity after a collision, with some to spare.
 constexpr double kPositionRoundings = 6 * kUnitRoundoff;
 constexpr double kVelocityRoundings = 12 * kUnitRoundoff;
+/// Most that the time of a certain collision may be off, relative to all time until then.
+constexpr double kTimeError = 0x1p-20;
 /// Makes up for the rounding of the bounds themselves.
 constexpr double kSpare = 1 + 0x1p-40;
 /// Doubts are predicted for errors so many times larger than those so far.
@@ -165,7 +167,9 @@ void CertifiedLine::check_order(std::size_t pair, double clock) {
   double other = kNever;
   if (pair > 0) other = std::min(other, earliest(pair - 1, approach(pair - 1)));
   if (pair + 1 < pairs_.size()) other = std::min(other, earliest(pair + 1, approach(pair + 1)));
-  if (other <= clock + tolerance) return end_certainty(std::min(clock - tolerance, other));
+  const bool is_vague = tolerance > kTimeError * (begin_.hi + clock);
+  if (is_vague || other <= clock + tolerance)
+    return end_certainty(std::min(clock - tolerance, other));
   // Reflected while a rest of the gap is left, they are off by twice this rest at most.
   position_error_ += 2 * rest / p.gap_per_norm * kSpare;
 }

@@ -58,23 +58,17 @@ double impulse_of(const System& system, const Collision& collision) {
     if (id >= system.bodies.size() || !system.bodies[id].mass) return std::nullopt;
     return to_double(*system.bodies[id].mass);
   };
-  const std::array<double, 2> way = way_to(system, collision);
-  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
-  const auto& u = collision.first_after.velocity;
-  const auto& v = collision.second_after.velocity;
-  const double speed =
-      std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
   std::optional<double> own = mass(collision.first);
   std::optional<double> other = mass(collision.second);
   if (restitution_of(system, collision.first, collision.second) != 1) {
     const auto& before = own ? collision.first_before : collision.second_before;
-    const auto& after = own ? u : v;
+    const auto& after = (own ? collision.first_after : collision.second_after).velocity;
     const double x = after[0] - before[0];
     const double y = after[1] - before[1];
     return (own ? *own : *other) * std::sqrt(x * x + y * y);
   }
   if (!own) std::swap(own, other);
-  return *own * velocity_change(speed, share_of_change(own, other));
+  return *own * velocity_change(parting_speed(system, collision), share_of_change(own, other));
 }
 
 bool is_at_wall(const System& system, const Collision& collision) {
@@ -85,6 +79,14 @@ bool is_at_wall(const System& system, const Collision& collision) {
 }
 
 }  // namespace
+
+double parting_speed(const System& system, const Collision& collision) {
+  const std::array<double, 2> way = way_to(system, collision);
+  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
+  const auto& u = collision.first_after.velocity;
+  const auto& v = collision.second_after.velocity;
+  return std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
+}
 
 std::optional<Impact> UnfoldedLog::blocks_impact(CollisionKind kind, const Integer& first,
                                                  const Integer& last) const {

@@ -22,4 +22,7 @@ struct Impact {
   double position = 0;
 };
 
+/// The speed along the line between the two with which they part.
+double parting_speed(const System& system, const Collision& collision);
+
 }  // namespace piblocks

@@ -69,6 +69,17 @@ PairState InelasticLog::blocks_at(const Rational& time) const {
   return state;
 }
 
+State InelasticLog::state_at(const Rational& time) const {
+  State state = PairLog::state_at(time);
+  state.is_infinite = motion_.is_end(state.count);
+  return state;
+}
+
+std::optional<Collapse> InelasticLog::collapse(const std::optional<Rational>& until) const {
+  const bool is_endless = !motion_.total && (!until || count_at(*until) == last());
+  return is_endless ? collapse_of(blocks()) : std::nullopt;
+}
+
 PairCollision InelasticLog::blocks_collision(const Integer& index) const {
   const InelasticNumbers now = motion_.numbers(index, velocity_bits_ + 8);
   PairCollision collision{

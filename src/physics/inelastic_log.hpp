@@ -20,6 +20,8 @@ class InelasticLog final : public PairLog {
 
   PairCollision blocks_collision(const Integer& index) const override;
   PairState blocks_at(const Rational& time) const override;
+  State state_at(const Rational& time) const override;
+  std::optional<Collapse> collapse(const std::optional<Rational>& until) const override;
   Rational time_after(const Integer& index) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
   Gaps gaps_at(const Rational& time) const override;

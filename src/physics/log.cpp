@@ -29,6 +29,40 @@ std::string noun_of(const System& system, std::size_t id) {
   return name == "wall" ? "the wall" : "the " + name + " wall";
 }
 
+namespace {
+
+/// As in "body 1, body 2 and the left wall"; of many, the first ones.
+std::string list_of(const System& system, const std::vector<std::uint32_t>& ids) {
+  constexpr std::size_t kMostNamed = 5;
+  const std::size_t named = ids.size() > kMostNamed ? kMostNamed - 1 : ids.size() - 1;
+  std::string list;
+  for (std::size_t i = 0; i < named; ++i) {
+    list += (i > 0 ? ", " : "") + noun_of(system, ids[i]);
+  }
+  return list + " and " +
+         (named + 1 == ids.size() ? noun_of(system, ids.back())
+                                  : fmt::format("{} more", ids.size() - named));
+}
+
+}  // namespace
+
+std::string text_of(const System& system, const Collapse& collapse) {
+  if (!collapse.time) return "infinitely many collisions, which never end";
+  const double end = collapse.time->hi;
+  if (two_blocks_of(system)) {
+    return fmt::format("infinitely many collisions until the blocks come to rest at t = {}", end);
+  }
+  return fmt::format("infinitely many collisions of {} until t = {}",
+                     list_of(system, collapse.bodies), end);
+}
+
+void refuse_count(const System& system, const Collapse& collapse) {
+  const double until = collapse.time ? collapse.time->hi * 0.999 : 10;
+  throw UsageError(fmt::format("count: there are {}; count those until {} time, as --to {:.4g}",
+                               text_of(system, collapse), collapse.time ? "an earlier" : "a",
+                               until));
+}
+
 std::vector<Motion> motions_at_start(const System& system) {
   std::vector<Motion> motions;
   motions.reserve(system.bodies.size());
@@ -107,7 +141,11 @@ std::unique_ptr<Log> make_log_of_valid(const System& system, const std::optional
 Integer count_collisions(const System& system, const std::optional<Rational>& horizon) {
   if (horizon) require_not_negative(*horizon);
   const std::optional<TwoBlocks> blocks = two_blocks_of(system);
-  return blocks ? count_collisions(*blocks) : make_log(system, horizon)->last();
+  if (blocks) return count_collisions(*blocks);
+  const auto log = make_log(system, horizon);
+  Integer last = log->last();
+  if (const auto collapse = log->collapse({})) refuse_count(system, *collapse);
+  return last;
 }
 
 std::optional<Rational> turn_of(const Log& log) {

@@ -30,6 +30,12 @@ Motion motion_at_start(const System& system, std::size_t id);
 /// As in "blue", "body 3" or "the left wall". @param id  as in Collision
 std::string noun_of(const System& system, std::size_t id);
 
+/// As in "infinitely many collisions of body 1, body 2 and the left wall until t = 5.17". Of two
+/// blocks beside something immovable it says that they come to rest.
+std::string text_of(const System& system, const Collapse& collapse);
+/// Collisions of these have no number. @throws UsageError with text_of() both.
+[[noreturn]] void refuse_count(const System& system, const Collapse& collapse);
+
 /// `count` >= 2 shares of an interval of time, 0 … 1, in order: both ends, and one in each of equal
 /// parts between. They follow no rhythm, so that they do not fall in step with a body that bounces.
 std::vector<double> sample_times(std::size_t count);

@@ -2,14 +2,18 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <shared_mutex>
 #include <utility>
 
 #include "core/stop.hpp"
 #include "physics/block_motion.hpp"
+#include "physics/collapse.hpp"
+#include "physics/impact.hpp"
 #include "physics/logs.hpp"
 #include "physics/stepper.hpp"
 
@@ -72,6 +76,8 @@ class SteppedLog final : public Log {
         start_(motions_at_start(system)),
         never_ends_(may_never_end(system)),
         horizon_(never_ends_ ? std::move(horizon) : std::nullopt),
+        crossing_time_(crossing_time(system)),
+        is_elastic_(is_elastic(system)),
         of_body_(system.bodies.size()) {}
 
   bool has(const Integer& index) const override {
@@ -97,16 +103,7 @@ class SteppedLog final : public Log {
   Collision collision(const Integer& index) const override {
     compute_up_to(index);
     const std::shared_lock lock(mutex_);
-    const auto number = static_cast<std::uint32_t>(index.get_ui() - 1);
-    const StoredStep& step = steps_.at(number);
-    return {index,
-            step.time,
-            step.first,
-            step.second,
-            step.first_after,
-            step.second_after,
-            velocity_before(step.first, number),
-            velocity_before(step.second, number)};
+    return collision_of(static_cast<std::uint32_t>(index.get_ui() - 1));
   }
 
   State state_at(const Rational& time) const override {
@@ -120,6 +117,7 @@ class SteppedLog final : public Log {
       const auto next = std::ranges::lower_bound(of_body_[body], count);
       state.bodies[body] = motion_at(body, now, next);
     }
+    state.is_infinite = collapse_ && count == steps_.size();
     return state;
   }
 
@@ -172,6 +170,13 @@ class SteppedLog final : public Log {
     const double end = time ? to_double(*time) : end_of_run();
     return certain_until_ && !(*certain_until_ > end) ? certain_until_ : std::nullopt;
   }
+  std::optional<Collapse> collapse(const std::optional<Rational>& until) const override {
+    const std::optional<Rational>& end = until ? until : horizon_;
+    if (is_elastic_ || (!end && never_ends_)) return std::nullopt;
+    compute([&] { return end ? is_computed_until(*end) : is_complete_; });
+    const std::shared_lock lock(mutex_);
+    return collapse_ && !(end && *end < to_rational(*collapse_->time)) ? collapse_ : std::nullopt;
+  }
 
  private:
   using Numbers = std::vector<std::uint32_t>;
@@ -192,6 +197,17 @@ class SteppedLog final : public Log {
       since = last.time;
     }
     return moved(motion, flight(since, time));
+  }
+  Collision collision_of(std::uint32_t number) const {
+    const StoredStep& step = steps_.at(number);
+    return {Integer(number) + 1,
+            step.time,
+            step.first,
+            step.second,
+            step.first_after,
+            step.second_after,
+            velocity_before(step.first, number),
+            velocity_before(step.second, number)};
   }
   /// @param id  as in Collision
   std::array<double, 2> velocity_before(std::uint32_t id, std::uint32_t step) const {
@@ -308,13 +324,78 @@ class SteppedLog final : public Log {
     steps_.push_back({step->time, step->first, step->second, step->first_after,
                       is_wall ? moved(motion_at_start(system(), step->second), step->time.hi)
                               : step->second_after});
+    if (!is_elastic_) find_collapse();
+  }
+
+  /// README.md, "Collapse".
+  void find_collapse() const {
+    const StoredStep& last = steps_.back();
+    const double window = kCollapseWindow * std::max(last.time.hi, crossing_time_);
+    for (const std::uint32_t body : {last.first, last.second}) {
+      if (is_immovable(body)) continue;
+      const Numbers& own = of_body_[body];
+      const auto since = std::ranges::partition_point(own, [&](std::uint32_t number) {
+        return flight(steps_[number].time, last.time) > window;
+      });
+      const auto count = static_cast<std::size_t>(own.end() - since);
+      // A run that goes on is asked about seldom.
+      if (count < kCollapseSteps || !std::has_single_bit(count)) continue;
+      const Numbers bodies = bodies_since(*since, body);
+      const double first_speed = parting_speed(system(), collision_of(*since));
+      const double last_speed = parting_speed(system(), collision_of(own.back()));
+      const bool has_stopped = !(last_speed > kCollapseSpeed * first_speed);
+      const std::optional<bool> is_collapse =
+          do_three_collapse(system(), bodies, speed_left_of_round());
+      const bool is_exact = exact_times_.size() == steps_.size();
+      if (!is_collapse.value_or(has_stopped) && (is_exact || !has_stopped)) continue;
+      // Doubles cannot step on, even if in truth it goes on.
+      if (is_collapse.value_or(true)) {
+        collapse_ = Collapse{last.time, Integer(steps_.size()), bodies};
+      }
+      certain_until_ = std::min(certain_until_.value_or(kForEver), last.time.hi);
+      is_complete_ = true;
+      return;
+    }
+  }
+
+  /// The share of its parting speed that the last pair has kept since it met before; 1 if this is
+  /// lost in the rounding of its velocities.
+  double speed_left_of_round() const {
+    const StoredStep& last = steps_.back();
+    const auto before = std::find_if(steps_.rbegin() + 1, steps_.rend(), [&](const auto& step) {
+      return step.first == last.first && step.second == last.second;
+    });
+    const auto speed_of = [&](auto step) {
+      return parting_speed(
+          system(),
+          collision_of(static_cast<std::uint32_t>(std::distance(step, steps_.rend()) - 1)));
+    };
+    const double speed = speed_of(steps_.rbegin());
+    const double scale =
+        std::fabs(last.first_after.velocity[0]) + std::fabs(last.second_after.velocity[0]);
+    return before == steps_.rend() || speed < 0x1p-30 * scale ? 1 : speed / speed_of(before);
+  }
+
+  /// The body and all that it has met since a step, directly or through movable ones.
+  Numbers bodies_since(std::uint32_t step, std::uint32_t body) const {
+    std::set<std::uint32_t> bodies = {body};
+    for (std::size_t size = 0; size < bodies.size();) {
+      size = bodies.size();
+      for (std::size_t number = step; number < steps_.size(); ++number) {
+        for (const auto& [own, other] : {std::pair(steps_[number].first, steps_[number].second),
+                                         std::pair(steps_[number].second, steps_[number].first)}) {
+          if (!is_immovable(own) && bodies.contains(own)) bodies.insert(other);
+        }
+      }
+    }
+    return {bodies.begin(), bodies.end()};
   }
 
   /// By then a run of which all is computed has ended, if rounding has not changed it: bodies that
   /// would still meet need far less time, those that drift by rounding errors far more.
   double end_of_run() const {
     const double last = steps_.empty() ? 0 : steps_.back().time.hi;
-    return 0x1p30 * (last + crossing_time(system()));
+    return 0x1p30 * (last + crossing_time_);
   }
 
   /// All steps so far are certain if the new one is the first that is not.
@@ -349,12 +430,15 @@ class SteppedLog final : public Log {
   std::vector<Motion> start_;
   bool never_ends_;
   std::optional<Rational> horizon_;
+  double crossing_time_;
+  bool is_elastic_;
   mutable bool is_complete_ = false;
   mutable std::vector<StoredStep> steps_;
   mutable std::vector<Rational> exact_times_;  // of the first steps
   mutable std::vector<Numbers> of_body_;       // numbers of its steps
   mutable std::optional<Integer> first_tie_;
   mutable std::optional<double> certain_until_;
+  mutable std::optional<Collapse> collapse_;
   mutable std::optional<SteppedCollision> jam_;  // of two that no collision moves
   mutable std::exception_ptr failure_;           // of the engine
 };

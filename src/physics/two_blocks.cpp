@@ -1,13 +1,13 @@
-#include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/two_blocks.hpp>
 
-#include <string>
+#include <algorithm>
 #include <vector>
 
 #include "physics/exact_line.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/inelastic_motion.hpp"
+#include "physics/logs.hpp"
 #include "physics/problems.hpp"
 
 namespace piblocks {
@@ -32,17 +32,6 @@ TwoBlocks two_blocks_from(const System& system, const LineElement& wall, const L
 
 /// Precision of a time before it is rounded to two doubles.
 constexpr mpfr_prec_t kCollapseBits = 160;
-
-std::string endless_message(const InelasticMotion& motion) {
-  const auto end = motion.collapse_time(kCollapseBits);
-  return end ? fmt::format(
-                   "count: there are infinitely many collisions until the blocks come to "
-                   "rest at t = {}; count those until an earlier time, as --to {:.4g}",
-                   end->to_double(), end->to_double() * 0.999)
-             : std::string(
-                   "count: there are infinitely many collisions, which never end; count those "
-                   "until a time, as --to 10");
-}
 
 }  // namespace
 
@@ -85,9 +74,8 @@ std::optional<Rational> turn_of(const TwoBlocks& system) {
 Integer count_collisions(const TwoBlocks& system) {
   require_valid(problems_of(system_of(system)));
   if (is_elastic(system)) return ExactMotion(system).total();
-  const InelasticMotion motion(system);
-  if (motion.total) return *motion.total;
-  throw UsageError(endless_message(motion));
+  if (const auto collapse = collapse_of(system)) refuse_count(system_of(system), *collapse);
+  return *InelasticMotion(system).total;
 }
 
 std::optional<Collapse> collapse_of(const TwoBlocks& system) {
@@ -96,7 +84,11 @@ std::optional<Collapse> collapse_of(const TwoBlocks& system) {
   const InelasticMotion motion(system);
   if (motion.total) return std::nullopt;
   const auto end = motion.collapse_time(kCollapseBits);
-  return Collapse{end ? std::optional(end->to_double_double()) : std::nullopt, motion.listed};
+  Collapse collapse{end ? std::optional(end->to_double_double()) : std::nullopt,
+                    motion.listed,
+                    {system.blue_id, system.red_id, system.wall_id}};
+  std::ranges::sort(collapse.bodies);
+  return collapse;
 }
 
 std::optional<Corner> corner_of(const TwoBlocks& system) {

@@ -6,6 +6,7 @@
 #include "stress/random_system.hpp"
 #include "support/contains.hpp"
 #include "support/inelastic_checks.hpp"
+#include "support/stepped_checks.hpp"
 #include "support/traced_random.hpp"
 
 namespace piblocks {
@@ -15,6 +16,13 @@ TEST(RestitutionStress, RandomSystemsMoveAsStepByStep) {
   TracedRandom random(11);
   for (std::int64_t i = 0; i < many(500) && !testing::Test::HasFailure(); ++i) {
     expect_like_steps(random_inelastic_system(random), random, i % 20 == 0 ? 300 : 60);
+  }
+}
+
+TEST(RestitutionStress, StepsAgreeWithTheClosedForm) {
+  TracedRandom random(12);
+  for (std::int64_t i = 0; i < many(10'000) && !testing::Test::HasFailure(); ++i) {
+    expect_stepped_like_closed(random_inelastic_system(random));
   }
 }
 
