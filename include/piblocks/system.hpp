@@ -37,6 +37,11 @@ struct Wall {
   std::optional<Rational> restitution = {};  ///< as of a Body
 };
 
+enum class Contacts : std::uint8_t {
+  at_once,  ///< bodies that touch take part in each other's collisions, all at one instant
+  in_order  ///< two at a time, in the order of TieRank (contact.hpp)
+};
+
 /// Bodies do not overlap each other nor the walls. Touching is allowed, and so is an overlap within
 /// a few roundings of the coordinates to doubles, save of two_blocks_of().
 struct System {
@@ -47,7 +52,11 @@ struct System {
   /// they have when they part; 0 (they stay together) … 1 (elastic).
   Rational restitution = 1;       ///< of two bodies that collisions move
   Rational wall_restitution = 1;  ///< of a body and something immovable
+  /// Nothing: at once for discs, in order for blocks, which know no other way yet.
+  std::optional<Contacts> contacts = {};
 };
+
+bool are_at_once(const System& system);
 
 /// The coefficient of restitution of two that meet: the lower one of both. A body or a wall without
 /// its own has that of the system for their kind.

@@ -290,6 +290,8 @@ std::vector<Problem> problems_of(const System& system) {
   const bool is_pair = two_blocks_of(system).has_value();
   for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, is_pair, problems);
   check_restitution(system, problems);
+  problems.require(system.dimensions == 2 || !are_at_once(system), "contacts",
+                   "= at-once: is for discs; blocks collide in order");
   const bool can_move =
       std::ranges::any_of(system.bodies, [](const Body& body) { return body.mass.has_value(); });
   problems.require(can_move, "body", "all have infinite mass: nothing can move");
@@ -351,7 +353,8 @@ bool has_short_names(const System& system) {
   const std::vector<Wall>& walls = system.walls;
   return system.dimensions == 1 && bodies.size() == 2 && walls.size() == 1 &&
          bodies[0].name == "blue" && bodies[1].name == "red" && bodies[0].mass && bodies[1].mass &&
-         walls[0].name == "wall" && walls[0].normal[0] > 0 && walls[0].velocity[0] == 0;
+         walls[0].name == "wall" && walls[0].normal[0] > 0 && walls[0].velocity[0] == 0 &&
+         !are_at_once(system);
 }
 
 Rational restitution_of(const System& system, std::size_t first, std::size_t second) {
@@ -365,6 +368,11 @@ Rational restitution_of(const System& system, std::size_t first, std::size_t sec
     return value ? *value : usual;
   };
   return std::min(own(first), own(second));
+}
+
+bool are_at_once(const System& system) {
+  const Contacts usual = system.dimensions == 2 ? Contacts::at_once : Contacts::in_order;
+  return system.contacts.value_or(usual) == Contacts::at_once;
 }
 
 bool is_elastic(const System& system) {

@@ -43,6 +43,12 @@ TEST(DiscCertaintyStress, OfDiscsThatLoseEnergyBetweenMovingWalls) {
   check_systems([](Random& random) { return make_real(random, random_discs(random)); }, 20);
 }
 
+TEST(DiscCertaintyStress, OfRacksThatAreStruck) { check_systems(random_rack, 3); }
+
+TEST(DiscCertaintyStress, OfCoincidencesThatLoseEnergy) {
+  check_systems([](Random& random) { return make_real(random, random_coincidences(random)); }, 2);
+}
+
 /// Rational numbers: again and again it meets two walls at once, or nearly.
 TEST(DiscCertaintyStress, OfADiscInABox) {
   const auto draw = [](Random& random) {

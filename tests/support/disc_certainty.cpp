@@ -24,6 +24,7 @@ struct BoundedStep {
   std::array<discs::Bound, 2> bounds;
   bool has_time = true;    ///< false: of the step before, which was swapped with this one
   bool has_motion = true;  ///< false: see the step after, which was swapped with this one
+  std::array<bool, 2> is_last = {true, true};  ///< of what happens to each body at that time
 };
 
 Real difference(double computed, const Real& truth) {
@@ -78,6 +79,22 @@ class Comparison {
     const double last = steps_.size() < limit ? until_ : steps_.back().step.time.hi * (1 - 0x1p-30);
     std::erase_if(steps_, [&](const BoundedStep& s) { return s.step.time.hi >= last; });
     queues_.resize(system_.bodies.size());
+    mark_stages();
+  }
+
+  /// Bounds are those after all that happens to a body at one instant.
+  void mark_stages() {
+    std::vector<BoundedStep*> last(system_.bodies.size());
+    for (BoundedStep& bounded : steps_) {
+      for (const std::size_t side : {0u, 1u}) {
+        const std::uint32_t body = side == 0 ? bounded.step.first : bounded.step.second;
+        if (body >= last.size()) continue;
+        if (last[body] != nullptr && last[body]->step.time.hi == bounded.step.time.hi) {
+          last[body]->is_last[last[body]->step.first == body ? 0 : 1] = false;
+        }
+        last[body] = &bounded;
+      }
+    }
   }
 
   /// Between walls that close in, speeds leave the range of a double some day.
@@ -150,8 +167,10 @@ class Comparison {
     const SteppedCollision& step = bounded.step;
     largest_time_error_ =
         std::max({largest_time_error_, bounded.bounds[0].time_error, bounded.bounds[1].time_error});
-    compare_motion(bounded, step.first, step.first_after, bounded.bounds[0]);
-    if (step.second < system_.bodies.size()) {
+    if (bounded.is_last[0]) {
+      compare_motion(bounded, step.first, step.first_after, bounded.bounds[0]);
+    }
+    if (step.second < system_.bodies.size() && bounded.is_last[1]) {
       compare_motion(bounded, step.second, step.second_after, bounded.bounds[1]);
     }
   }

@@ -39,6 +39,16 @@ class PreciseDiscs {
     Real radius;
     std::optional<Real> mass;
     std::size_t last;
+    std::size_t event = 0;                  ///< several contacts at once, if it met nobody since
+    std::vector<std::size_t> touched = {};  ///< whom it did not approach after that
+  };
+  struct Contact {
+    std::size_t first;  ///< movable
+    std::size_t second;
+    Vector normal;  ///< from the first
+    Real closing;
+    Real rebound;
+    Real impulse;
   };
   struct Line {
     Vector normal;
@@ -56,11 +66,25 @@ class PreciseDiscs {
   Real rebound(std::size_t first, std::size_t second) const;
   bool have_just_met(std::size_t first, std::size_t second) const;
 
+  bool is_movable(std::size_t body) const { return body < bodies_.size() && bodies_[body].mass; }
+  std::optional<Contact> contact(std::size_t first, std::size_t second, const Real& time) const;
+  std::vector<Contact> cluster_of(const Step& step) const;
+  bool is_corner(const std::vector<Contact>& contacts) const;
+  Vector velocity_of(std::size_t body, const Contact& contact) const;
+  Real closing(const Contact& contact) const;
+  Real inverse_mass(std::size_t body) const;
+  bool solve(std::vector<Contact>& contacts) const;
+  bool solve_without_pulling(std::vector<Contact>& contacts) const;
+  bool meet_at_once(const Step& step);
+  void note_event(const std::vector<Contact>& contacts, const Real& least);
+
   System system_;
   mpfr_prec_t bits_;
   std::vector<Disc> bodies_ = {};
   std::vector<Line> walls_ = {};
   std::vector<std::vector<std::optional<Real>>> times_ = {};  ///< [first][second], walls last
+  std::vector<Step> pending_ = {};                            ///< the next one last
+  std::size_t events_ = 0;
 };
 
 }  // namespace piblocks

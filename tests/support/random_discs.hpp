@@ -146,4 +146,25 @@ inline System random_coincidences(Random& random) {
   return system;
 }
 
+/// Unit discs on places of a hexagonal lattice, their centres in doubles, some moving, some of them
+/// on a floor; and one that comes from the left along a row or between two.
+inline System random_rack(Random& random) {
+  System system{.dimensions = 2, .restitution = random.rational(1, 2, 4) / 2};
+  for (int row = 0; row < 3; ++row) {
+    for (int k = 0; k < 3; ++k) {
+      if (random.integer(0, 3) == 0) continue;
+      Body body{1, {2 * k + row % 2, Rational(std::sqrt(3) * row)}};
+      body.mass = random.integer(1, 3);
+      if (random.integer(0, 9) == 0) body.mass.reset();
+      const bool moves = body.mass && random.integer(0, 9) == 0;
+      if (moves) body.velocity = {random.rational(-1, 1, 4), random.rational(-1, 1, 4)};
+      system.bodies.push_back(body);
+    }
+  }
+  if (random.integer(0, 1) == 0) system.walls = {{"floor", {0, -1}, {0, 1}}};
+  const Rational height(std::sqrt(3) * 0.5 * static_cast<double>(random.integer(0, 4)));
+  system.bodies.push_back({1, {-7, height}, {1, 0}});
+  return system;
+}
+
 }  // namespace piblocks

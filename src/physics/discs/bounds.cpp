@@ -8,10 +8,6 @@
 namespace piblocks::discs {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-/// Covers the rounding of the few operations that compute a bound, and of those that are said to be
-/// right to a few u where second powers of u are left out.
-constexpr double kUp = 1 + 0x1p-45;
 constexpr double kDown = 1 - 0x1p-45;
 /// More than what underflow takes from any product here.
 constexpr double kTiny = 0x1p-900;
@@ -146,14 +142,30 @@ double drift(const Disc& disc, const Bound& bound, double time) {
   return (bound.position + bound.velocity * flight + rounding) * kUp + kTiny;
 }
 
+double gap_error(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
+                 double time) {
+  const double distance = length(position_at(b, time) - position_at(a, time));
+  return (drift(a, bound_a, time) + drift(b, bound_b, time) +
+          8 * kUnit * (distance + a.radius + b.radius)) *
+         kUp;
+}
+
+double gap_error(const Disc& disc, const Bound& bound, const WallLine& wall, double time) {
+  const double place = size_of(position_at(disc, time));
+  return (drift(disc, bound, time) + place * wall.normal_error + wall.offset_error +
+          place_error(wall, time) + 8 * kUnit * (place + std::abs(wall.offset) + disc.radius)) *
+         kUp;
+}
+
 double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
-                        double top_speed) {
+                        double top_speed, bool is_one_event) {
   const Sight sight(a, bound_a, b, bound_b);
   const Vector w = sight.seen.velocity;
   const double time_error = bound_a.time_error + bound_b.time_error;
   // Exactly at rest to each other.
   if (w.x == 0 && w.y == 0 && sight.b == 0 && time_error == 0) return kNever;
-  if (are_in_order(a, bound_a, b, bound_b) && surely_recede(sight, time_error)) return kNever;
+  const bool is_ordered = is_one_event || are_in_order(a, bound_a, b, bound_b);
+  if (is_ordered && surely_recede(sight, time_error)) return kNever;
   const double reach = sight.seen.reach + sight.e;
   const double gap = sight.distance - reach;
   if (!(gap > 8 * top_speed * time_error)) return time_before(sight.seen.start, time_error);

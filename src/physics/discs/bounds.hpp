@@ -11,15 +11,26 @@
 
 namespace piblocks::discs {
 
+inline constexpr double kUnit = 0x1p-53;
+/// Covers the rounding of the few operations that compute a bound, and of those that are said to be
+/// right to a few u where second powers of u are left out.
+inline constexpr double kUp = 1 + 0x1p-45;
+
 /// How far the true centre may be from position_at(disc, time), as computed.
 double drift(const Disc& disc, const Bound& bound, double time);
+
+/// How far the true gap may be from gap_to() or from the computed distance less the radii.
+double gap_error(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
+                 double time);
+double gap_error(const Disc& disc, const Bound& bound, const WallLine& wall, double time);
 
 /// The time before which two discs truly do not meet, whatever rounding has done; kNever if they do
 /// not meet before one of them has met another. It is before the last meeting of one of them if the
 /// order of that and of this one is in doubt.
 /// @param top_speed  of all discs, at least
+/// @param is_one_event  whether the last meetings of both were one, several contacts at once
 double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
-                        double top_speed);
+                        double top_speed, bool is_one_event);
 double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
                         double top_speed);
 /// The same if the last meeting did not change how the disc moves towards the wall. It may be
