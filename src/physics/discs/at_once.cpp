@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/discs/bounds.hpp"
+
 namespace piblocks::discs {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kUp = 1 + 0x1p-40;
 /// A matrix is inverted in the cube of this number of steps.
-constexpr std::size_t kMostAtOnce = 300;
+constexpr std::size_t kMostAtOnce = 100;
 
 bool is_movable(const DiscSystem& system, std::uint32_t body) {
   return body < system.discs.size() && system.is_movable(body);

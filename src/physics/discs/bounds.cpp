@@ -8,10 +8,6 @@
 namespace piblocks::discs {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-/// Covers the rounding of the few operations that compute a bound, and of those that are said to be
-/// right to a few u where second powers of u are left out.
-constexpr double kUp = 1 + 0x1p-45;
 constexpr double kDown = 1 - 0x1p-45;
 /// More than what underflow takes from any product here.
 constexpr double kTiny = 0x1p-900;

@@ -11,6 +11,11 @@
 
 namespace piblocks::discs {
 
+inline constexpr double kUnit = 0x1p-53;
+/// Covers the rounding of the few operations that compute a bound, and of those that are said to be
+/// right to a few u where second powers of u are left out.
+inline constexpr double kUp = 1 + 0x1p-45;
+
 /// How far the true centre may be from position_at(disc, time), as computed.
 double drift(const Disc& disc, const Bound& bound, double time);
 

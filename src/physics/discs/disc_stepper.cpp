@@ -117,10 +117,12 @@ class Stepper final : public DiscStepper {
   bool are_of_one_event(std::uint32_t disc, std::uint32_t partner) const;
   double gap_between(std::uint32_t disc, std::uint32_t partner, double time) const;
   bool touch(std::uint32_t disc, std::uint32_t partner, double time) const;
+  bool touch(double radius, Vector place, std::uint32_t partner, double time) const;
   Touch touch_of(std::uint32_t disc, std::uint32_t partner, double time) const;
   std::uint64_t rank_of(std::uint32_t disc, std::uint32_t partner) const;
   template <typename Visit>
   void visit_all(std::uint32_t body, Visit visit) const;
+  bool meet_alone(std::uint32_t disc, std::uint32_t partner, double time) const;
   Cluster cluster_of(std::uint32_t disc, std::uint32_t partner, double time) const;
   bool is_single(const Cluster& cluster) const;
   double least_speed(const Cluster& cluster) const;
@@ -408,8 +410,43 @@ double Stepper::gap_between(std::uint32_t disc, std::uint32_t partner, double ti
 }
 
 bool Stepper::touch(std::uint32_t disc, std::uint32_t partner, double time) const {
-  const double radius = is_disc(partner) ? discs_[partner].radius : 0;
-  return gap_between(disc, partner, time) <= kTouch * (discs_[disc].radius + radius);
+  return touch(discs_[disc].radius, position_at(discs_[disc], time), partner, time);
+}
+
+bool Stepper::touch(double radius, Vector place, std::uint32_t partner, double time) const {
+  if (!is_disc(partner)) {
+    const WallLine& wall = wall_of(partner);
+    return dot(wall.normal, place) - (wall.offset + wall.speed * time) <= radius * (1 + kTouch);
+  }
+  const Disc& other = discs_[partner];
+  const Vector apart = position_at(other, time) - place;
+  const double reach = (radius + other.radius) * (1 + kTouch);
+  return dot(apart, apart) <= reach * reach;
+}
+
+/// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
+template <typename Visit>
+void Stepper::visit_all(std::uint32_t body, Visit visit) const {
+  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
+  cells_.visit_near(body, [&](std::uint32_t other) {
+    if (other != body) visit(other);
+  });
+}
+
+/// Whether these two are all that touches at the place where they meet.
+bool Stepper::meet_alone(std::uint32_t disc, std::uint32_t partner, double time) const {
+  bool are_alone = true;
+  const auto look_around = [&](std::uint32_t body, std::uint32_t met) {
+    if (!is_disc(body) || !system_.is_movable(body)) return;
+    const double radius = discs_[body].radius;
+    const Vector place = position_at(discs_[body], time);
+    visit_all(body, [&](std::uint32_t other) {
+      if (other != met && touch(radius, place, other, time)) are_alone = false;
+    });
+  };
+  look_around(disc, partner);
+  look_around(partner, disc);
+  return are_alone;
 }
 
 Touch Stepper::touch_of(std::uint32_t disc, std::uint32_t partner, double time) const {
@@ -422,15 +459,6 @@ Touch Stepper::touch_of(std::uint32_t disc, std::uint32_t partner, double time) 
     touch.normal_error = wall_of(partner).normal_error;
   }
   return touch;
-}
-
-/// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
-template <typename Visit>
-void Stepper::visit_all(std::uint32_t body, Visit visit) const {
-  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
-  cells_.visit_near(body, [&](std::uint32_t other) {
-    if (other != body) visit(other);
-  });
 }
 
 /// All that touch these two directly or through movable bodies.
@@ -486,6 +514,7 @@ double Stepper::least_speed(const Cluster& cluster) const {
 /// @return false if these two meet alone, or cannot be taken together with others
 bool Stepper::meet_at_once(std::uint32_t disc, std::uint32_t partner, double time) {
   constexpr int kMostStages = 64;
+  if (meet_alone(disc, partner, time)) return false;
   Cluster cluster = cluster_of(disc, partner, time);
   if (is_single(cluster)) return false;
   const double least = least_speed(cluster);
