@@ -182,6 +182,9 @@ class Log {
   System system_;
 };
 
+/// Whether log.last() stands for infinitely many collisions: see Collapse.
+inline bool is_endless(const Log& log) { return log.collapse({}).has_value(); }
+
 enum class Engine {
   unfolded,  ///< the cheapest that is right: a closed form, exact or certified steps
   events     ///< the article's event loop in double precision, whose errors nothing bounds

@@ -163,8 +163,6 @@ class PairLog : public Log {
   /// The gaps at this collision: y1 is exactly 0 at the wall, and equals y2 exactly if the blocks
   /// meet. @throws SimulationError as blocks_collision().
   virtual Gaps gaps_at_collision(const Integer& index) const;
-  /// Whether last() stands for infinitely many: see Collapse.
-  virtual bool is_endless() const { return false; }
   /// The interval between two times, from <= to, also before time 0. Valid after the log is gone.
   /// @throws SimulationError as blocks_collision().
   virtual PairExposure expose(const Rational& from, const Rational& to) const;
@@ -253,9 +251,6 @@ std::optional<Corner> corner_of(const TwoBlocks& system);
 /// the blocks have lost all their energy: they rest at the wall and touch each other.
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Collapse> collapse_of(const TwoBlocks& system);
-
-/// Whether log.last() stands for infinitely many collisions: see Collapse.
-inline bool is_endless(const Log& log) { return log.pair() != nullptr && log.pair()->is_endless(); }
 
 /// How elastic the article's blocks have to be. With less restitution the blocks meet more often,
 /// not less: see src/physics/README.md.

@@ -114,7 +114,7 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
     });
   }
   file.finish();
-  if (const auto note = endless_note(scene)) say("piblocks: note: {}\n", *note);
+  if (const auto note = endless_note(*log)) say("piblocks: note: {}\n", *note);
   note_convention(scene);
   note_ties(*log, rows.last);
 }

@@ -29,14 +29,18 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
   const Scene scene = scene_options.scene();
   const std::optional<Instant> to = options.value("--to", parse_instant);
   std::unique_ptr<Log> log;
+  std::optional<Rational> until;
   Integer count;
   if (to || !two_blocks_of(scene.system)) {
     log = log_of(scene);
-    const auto until = to ? std::optional(time_of(*to, *log)) : log->horizon();
+    until = to ? std::optional(time_of(*to, *log)) : log->horizon();
     count = until ? log->count_at(*until) : log->last();
+  }
+  if (!log || count == infinite_count(*log)) {
+    count = count_collisions(scene.system, log ? log->horizon() : std::nullopt);
+  } else {
     require_certain(scene, *log, until);
   }
-  if (!log || count == infinite_count(*log)) count = count_collisions(scene.system);
   out.line(count.get_str(scene.show.base));
   out.finish();
   if (log) note_ties(*log, count);

@@ -31,7 +31,6 @@ class InelasticLog final : public PairLog {
 
   Integer first_since(const Rational& time) const override;
 
-  bool is_endless() const override { return !motion_.total; }
   std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const override;
   /// From collision to collision, or in slices of time if these are too many to be listed.

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/text.hpp"
+#include "physics/logs.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -27,6 +28,13 @@ void require_certain(const Scene& scene, const Log& log, const std::optional<Rat
   if (scene.time.allow_uncertain) return;
   const std::optional<double> until = log.certain_until(time);
   if (!until) return;
+  if (const auto collapse = log.collapse(time)) {
+    throw UsageError(
+        fmt::format("bodies: there are {}; what follows is not computed; end earlier, as with "
+                    "time.to = {:.4g}, "
+                    "or accept this by --allow-uncertain",
+                    text_of(log.system(), *collapse), *until * 0.999));
+  }
   throw UsageError(fmt::format(
       "bodies: the result is certain only until time {}; after that, rounding may change which "
       "bodies collide; end earlier, as with time.to = {:.4g}, or accept this by --allow-uncertain",
@@ -59,17 +67,12 @@ std::vector<std::string> convention_notes(const Script& script) {
   return notes;
 }
 
-std::optional<std::string> endless_note(const Scene& scene) {
-  const std::optional<TwoBlocks> pair = two_blocks_of(scene.system);
-  const std::optional<Collapse> collapse = pair ? collapse_of(*pair) : std::nullopt;
+std::optional<std::string> endless_note(const Log& log) {
+  const std::optional<Collapse> collapse = log.collapse({});
   if (!collapse) return std::nullopt;
-  const std::string end =
-      collapse->time
-          ? fmt::format("there are infinitely many collisions until the blocks rest at t = {}",
-                        collapse->time->hi)
-          : std::string("the collisions never end");
-  return fmt::format("{}; the log lists the first {}, and shows the blocks at rest after them", end,
-                     readable(collapse->listed));
+  return fmt::format("there are {}; the log lists the first {}{}", text_of(log.system(), *collapse),
+                     readable(collapse->listed),
+                     log.pair() ? ", and shows the blocks at rest after them" : "");
 }
 
 std::string listed_collisions(const Log& log, const char* mark) {

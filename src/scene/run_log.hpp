@@ -35,7 +35,7 @@ std::optional<std::string> tie_note(const Log& log, const Integer& last);
 std::vector<std::string> convention_notes(const Script& script);
 
 /// How far the log of a run of infinitely many collisions goes; nothing for other scenes.
-std::optional<std::string> endless_note(const Scene& scene);
+std::optional<std::string> endless_note(const Log& log);
 
 /// Which collisions the log lists: "no collisions", "collisions #1 to #31".
 /// @param mark  before each number

@@ -233,7 +233,7 @@ StateRow state_row(const Log& log, const Rational& time, bool has_bounds) {
   }
   const State state = log.state_at(time);
   const auto axes = std::ptrdiff_t{log.system().dimensions};
-  StateRow row{state.count, state.count == infinite_count(log)};
+  StateRow row{state.count, state.is_infinite};
   row.numbers.reserve(3 + 2 * state.bodies.size() * std::size_t(axes));
   row.numbers.push_back(to_double(time));
   for (const auto part : {&Motion::position, &Motion::velocity}) {

@@ -87,7 +87,7 @@ class Counter {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const Integer& count = shown.state.count;
     const bool is_over = last_ && count >= *last_;
-    const bool is_infinite = is_over && is_endless_;
+    const bool is_infinite = shown.state.is_infinite;
     const std::string text = is_infinite ? std::string(kEndlessCount) : count_text(count, base_);
     // An instant outside of the film may have a longer count than any in it.
     const double count_em = count_widths_.width_em(text);
