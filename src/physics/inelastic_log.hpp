@@ -34,8 +34,6 @@ class InelasticLog final : public PairLog {
   bool is_endless() const override { return !motion_.total; }
   std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const override;
-  /// From collision to collision, or in slices of time if these are too many to be listed.
-  PairExposure expose(const Rational& from, const Rational& to) const override;
 
  private:
   /// Count and gaps at a time.
