@@ -16,7 +16,8 @@ constexpr double kUnitRoundoff = 0x1p-53;
 /// Roundings of an advanced position, and of a velocity after a collision, with some to spare.
 constexpr double kPositionRoundings = 6 * kUnitRoundoff;
 constexpr double kVelocityRoundings = 12 * kUnitRoundoff;
-/// Most that the time of a certain collision may be off, relative to all time until then.
+/// Most that the time of a certain collision of a lossy system may be off, relative to all time
+/// until then.
 constexpr double kTimeError = 0x1p-20;
 /// Makes up for the rounding of the bounds themselves.
 constexpr double kSpare = 1 + 0x1p-40;
@@ -55,6 +56,7 @@ CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Ration
     element.velocity = to_double(exact.velocity);
     element.root_mass = root_of(exact.mass);
     element.is_movable = exact.mass.has_value();
+    is_lossy_ = is_lossy_ || exact.restitution < 1;
     position_error_ += element.root_mass * kUnitRoundoff * std::fabs(element.position);
     velocity_error_ += element.root_mass * kUnitRoundoff * std::fabs(element.velocity);
   }
@@ -167,7 +169,7 @@ void CertifiedLine::check_order(std::size_t pair, double clock) {
   double other = kNever;
   if (pair > 0) other = std::min(other, earliest(pair - 1, approach(pair - 1)));
   if (pair + 1 < pairs_.size()) other = std::min(other, earliest(pair + 1, approach(pair + 1)));
-  const bool is_vague = tolerance > kTimeError * (begin_.hi + clock);
+  const bool is_vague = is_lossy_ && tolerance > kTimeError * (begin_.hi + clock);
   if (is_vague || other <= clock + tolerance)
     return end_certainty(std::min(clock - tolerance, other));
   // Reflected while a rest of the gap is left, they are off by twice this rest at most.

@@ -85,6 +85,7 @@ class CertifiedLine {
   Time begin_;
   double clock_ = 0;
   double certain_until_ = kNever;  // on the clock
+  bool is_lossy_ = false;
   // Norms of the errors of all positions and of all velocities, each weighted by the root of its
   // mass; and the larger ones that doubts have been predicted with.
   double position_error_ = 0;

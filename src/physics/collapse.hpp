@@ -1,27 +1,48 @@
 // Bodies that lose all speed relative to each other in infinitely many collisions.
-// In: a System, and which bodies have lately met so often in no time. Out: whether they collapse.
+// In: a System, and the steps that a log has stored. Out: which bodies collapse with the last one.
+// README.md, "Collapse", tells when.
 #pragma once
 
-#include <piblocks/system.hpp>
+#include <piblocks/log.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace piblocks {
 
-/// A body may be part of a collapse if it has so many collisions within this share of the time,
-/// and no more than this share of the speed is left with which it parted at first.
-inline constexpr std::size_t kCollapseSteps = 32;
-inline constexpr double kCollapseWindow = 0x1p-48;
-inline constexpr double kCollapseSpeed = 0x1p-16;
+struct StoredStep {
+  Time time;
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  Motion first_after;
+  Motion second_after;
+};
+/// Places of steps, in order.
+using Numbers = std::vector<std::uint32_t>;
 
-/// Whether three neighbours on a line that meet so often do so infinitely often: README.md,
-/// "Collapse". Nothing for other bodies.
-/// @param bodies      as Collapse::bodies
-/// @param speed_left  what share of its parting speed a pair keeps from one round to the next
-std::optional<bool> do_three_collapse(const System& system,
-                                      const std::vector<std::uint32_t>& bodies, double speed_left);
+inline double flight(const Time& from, const Time& to) {
+  return (to.hi - from.hi) + (to.lo - from.lo);
+}
+
+/// @param id  as in Collision
+bool is_immovable(const System& system, std::uint32_t id);
+
+/// The share of all time in which bodies that collapse have met very often.
+inline constexpr double kCollapseWindow = 0x1p-48;
+
+/// What cannot be stepped on.
+struct EndOfSteps {
+  std::vector<std::uint32_t> bodies;  ///< as Collapse::bodies
+  bool is_collapse = true;            ///< false where doubles cannot tell whether it is one
+};
+
+/// The end that the last step is; nothing if the run goes on.
+/// @param of_body   the numbers of each body's steps
+/// @param window    the time in which its bodies have met very often
+/// @param is_exact  whether the last step was in rational numbers
+std::optional<EndOfSteps> end_of_steps(const System& system, const std::vector<StoredStep>& steps,
+                                       const std::vector<Numbers>& of_body, double window,
+                                       bool is_exact);
 
 }  // namespace piblocks

@@ -1,20 +1,13 @@
 #include "physics/exposure.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/rounded.hpp"
-#include "physics/inelastic_log.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
-
-/// Slices of an interval with more collisions than are listed, and how many collisions of a slice
-/// are.
-constexpr long kSlices = 256;
-constexpr long kListedOfSlice = 8;
 
 /// From an instant and its state to a later one, from collision to collision.
 void add_flights(const PairLog& log, Time now, const Integer& count, const Rational& end,
@@ -29,44 +22,6 @@ void add_flights(const PairLog& log, Time now, const Integer& count, const Ratio
     go_to(collision.time, collision.blue, collision.red);
   }
   go_to(to_time(end), stop.blue, stop.red);
-}
-
-/// Many bounces, by two there and back: between wall and red blue is everywhere for the same time.
-void add_bounces(const TwoBlocks& system, double duration, const PairState& start,
-                 const PairState& stop, PieceList& pieces) {
-  const double wall = to_double(system.wall_face + system.blue.width / 2);
-  const double to_red = to_double((system.blue.width + system.red.width) / 2);
-  const std::array<double, 6> stops = {start.blue.position,         wall,
-                                       start.red.position - to_red, wall,
-                                       stop.red.position - to_red,  stop.blue.position};
-  double path = 0;
-  for (std::size_t i = 1; i < stops.size(); ++i) path += std::fabs(stops[i] - stops[i - 1]);
-  double gone = 0;
-  for (std::size_t i = 1; i < stops.size(); ++i) {
-    const double leg = std::fabs(stops[i] - stops[i - 1]);
-    gone += leg;
-    const double share = path > 0 ? gone / path : 1;
-    pieces.add(path > 0 ? duration * (leg / path) : duration / 5, stops[i],
-               start.red.position + share * (stop.red.position - start.red.position));
-  }
-}
-
-PairExposure sliced(const PairLog& log, const Rational& begin, const Rational& end,
-                    PairState state) {
-  PieceList pieces(state.blue.position, state.red.position);
-  const Rational length = (end - begin) / kSlices;
-  for (long slice = 0; slice < kSlices; ++slice) {
-    const Rational from = begin + length * slice;
-    const Rational to = from + length;
-    PairState stop = log.blocks_at(to);
-    if (stop.count - state.count <= kListedOfSlice) {
-      add_flights(log, to_time(from), state.count, to, stop, pieces);
-    } else {
-      add_bounces(log.blocks(), to_double(length), state, stop, pieces);
-    }
-    state = std::move(stop);
-  }
-  return pieces.exposure();
 }
 
 std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
@@ -200,23 +155,20 @@ PairExposure PairLog::expose(const Rational& from, const Rational& to) const {
   return pieces.exposure();
 }
 
-PairExposure InelasticLog::expose(const Rational& from, const Rational& to) const {
-  PairState start = blocks_at(from);
-  const bool is_listed = count_at(to) - start.count <= long(kMaxListedCollisions);
-  return is_listed ? PairLog::expose(from, to) : sliced(*this, from, to, std::move(start));
-}
-
 Exposure expose(const Log& log, const Rational& begin, const Rational& end) {
   if (end < begin) return expose(log, end, begin);
-  if (const PairLog* const pair = log.pair()) {
+  const PairLog* const pair = log.pair();
+  if (pair && is_elastic(pair->blocks())) {
     const TwoBlocks& blocks = pair->blocks();
     return {{},
             ClosedExposure{pair->expose(begin, end), blocks.blue_id, blocks.red_id, blocks.side}};
   }
-  // What is stepped can be listed: a log has no more than kMaxSteppedCollisions.
-  constexpr auto kAll = static_cast<std::size_t>(kMaxSteppedCollisions);
+  // What is stepped can be listed: a log has no more than kMaxSteppedCollisions. Of two blocks that
+  // lose energy more than can be seen are sampled.
+  const std::size_t most =
+      pair ? 2 * kMaxListedCollisions : static_cast<std::size_t>(kMaxSteppedCollisions);
   Exposure exposure;
-  for (const std::vector<PathPoint>& path : log.paths(begin, end, kAll)) {
+  for (const std::vector<PathPoint>& path : log.paths(begin, end, most)) {
     exposure.pieces.push_back(pieces_of(path));
   }
   return exposure;

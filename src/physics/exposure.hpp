@@ -90,8 +90,9 @@ struct Exposure {
 };
 
 /// The interval between two times, in either order, none of them negative unless the past is known.
-/// Every collision is listed, but for those that the closed form sums up. Valid after its log is
-/// gone.
+/// Every collision is listed, but for those that the closed form of elastic blocks sums up; of two
+/// lossy blocks beside something immovable, twice kMaxListedCollisions at most, and else as many
+/// times between. Valid after its log is gone.
 /// @throws as Log::state_at().
 Exposure expose(const Log& log, const Rational& begin, const Rational& end);
 

@@ -42,15 +42,6 @@ double usual_impulse(const System& system) {
   return 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
 }
 
-/// Where a body or a wall touches the first body of a collision, seen from that body's centre.
-std::array<double, 2> way_to(const System& system, const Collision& collision) {
-  const auto& from = collision.first_after.position;
-  const auto& to = collision.second_after.position;
-  if (collision.second < system.bodies.size()) return {to[0] - from[0], to[1] - from[1]};
-  const ExactVector& normal = system.walls[collision.second - system.bodies.size()].normal;
-  return {-to_double(normal[0]), -to_double(normal[1])};
-}
-
 /// If elastic, both velocities along the line between them are reversed as seen from their common
 /// centre of mass, so that what they are afterwards says how large the impulse was.
 double impulse_of(const System& system, const Collision& collision) {
@@ -68,7 +59,9 @@ double impulse_of(const System& system, const Collision& collision) {
     return (own ? *own : *other) * std::sqrt(x * x + y * y);
   }
   if (!own) std::swap(own, other);
-  return *own * velocity_change(parting_speed(system, collision), share_of_change(own, other));
+  const double speed =
+      parting_speed(system, collision.second, collision.first_after, collision.second_after);
+  return *own * velocity_change(speed, share_of_change(own, other));
 }
 
 bool is_at_wall(const System& system, const Collision& collision) {
@@ -80,11 +73,17 @@ bool is_at_wall(const System& system, const Collision& collision) {
 
 }  // namespace
 
-double parting_speed(const System& system, const Collision& collision) {
-  const std::array<double, 2> way = way_to(system, collision);
+double parting_speed(const System& system, std::uint32_t second, const Motion& first_after,
+                     const Motion& second_after) {
+  std::array<double, 2> way = {second_after.position[0] - first_after.position[0],
+                               second_after.position[1] - first_after.position[1]};
+  if (second >= system.bodies.size()) {
+    const ExactVector& normal = system.walls[second - system.bodies.size()].normal;
+    way = {-to_double(normal[0]), -to_double(normal[1])};
+  }
   const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
-  const auto& u = collision.first_after.velocity;
-  const auto& v = collision.second_after.velocity;
+  const auto& u = first_after.velocity;
+  const auto& v = second_after.velocity;
   return std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
 }
 

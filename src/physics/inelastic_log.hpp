@@ -33,8 +33,6 @@ class InelasticLog final : public PairLog {
 
   std::optional<Impact> blocks_impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const override;
-  /// From collision to collision, or in slices of time if these are too many to be listed.
-  PairExposure expose(const Rational& from, const Rational& to) const override;
 
  private:
   /// Count and gaps at a time.

@@ -2,31 +2,20 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <exception>
 #include <mutex>
-#include <set>
 #include <shared_mutex>
 #include <utility>
 
 #include "core/stop.hpp"
 #include "physics/block_motion.hpp"
 #include "physics/collapse.hpp"
-#include "physics/impact.hpp"
 #include "physics/logs.hpp"
 #include "physics/stepper.hpp"
 
 namespace piblocks {
 namespace {
-
-struct StoredStep {
-  Time time;
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
-  Motion first_after;
-  Motion second_after;
-};
 
 /// A binary fraction from `time` on and before `next`, of as few digits as there may be.
 Rational short_time(const Rational& time, const std::optional<Rational>& next) {
@@ -103,7 +92,16 @@ class SteppedLog final : public Log {
   Collision collision(const Integer& index) const override {
     compute_up_to(index);
     const std::shared_lock lock(mutex_);
-    return collision_of(static_cast<std::uint32_t>(index.get_ui() - 1));
+    const auto number = static_cast<std::uint32_t>(index.get_ui() - 1);
+    const StoredStep& step = steps_.at(number);
+    return {index,
+            step.time,
+            step.first,
+            step.second,
+            step.first_after,
+            step.second_after,
+            velocity_before(step.first, number),
+            velocity_before(step.second, number)};
   }
 
   State state_at(const Rational& time) const override {
@@ -179,13 +177,8 @@ class SteppedLog final : public Log {
   }
 
  private:
-  using Numbers = std::vector<std::uint32_t>;
-
   static const Motion& after(const StoredStep& step, std::size_t body) {
     return step.first == body ? step.first_after : step.second_after;
-  }
-  static double flight(const Time& from, const Time& to) {
-    return (to.hi - from.hi) + (to.lo - from.lo);
   }
   /// @param next  the body's first step after that time
   Motion motion_at(std::size_t body, const Time& time, Numbers::const_iterator next) const {
@@ -197,17 +190,6 @@ class SteppedLog final : public Log {
       since = last.time;
     }
     return moved(motion, flight(since, time));
-  }
-  Collision collision_of(std::uint32_t number) const {
-    const StoredStep& step = steps_.at(number);
-    return {Integer(number) + 1,
-            step.time,
-            step.first,
-            step.second,
-            step.first_after,
-            step.second_after,
-            velocity_before(step.first, number),
-            velocity_before(step.second, number)};
   }
   /// @param id  as in Collision
   std::array<double, 2> velocity_before(std::uint32_t id, std::uint32_t step) const {
@@ -290,10 +272,6 @@ class SteppedLog final : public Log {
     return is_complete_ || (!steps_.empty() && time_of(steps_.size() - 1) > time);
   }
 
-  bool is_immovable(std::uint32_t id) const {
-    return id >= of_body_.size() || !system().bodies[id].mass;
-  }
-
   void add_step() const {
     if (jam_) {
       throw SimulationError(fmt::format(
@@ -304,7 +282,7 @@ class SteppedLog final : public Log {
     note_certainty();
     is_complete_ = !step;
     if (is_complete_) return;
-    if (is_immovable(step->first) && is_immovable(step->second)) {
+    if (is_immovable(system(), step->first) && is_immovable(system(), step->second)) {
       jam_ = step;
       return;
     }
@@ -327,68 +305,15 @@ class SteppedLog final : public Log {
     if (!is_elastic_) find_collapse();
   }
 
-  /// README.md, "Collapse".
   void find_collapse() const {
-    const StoredStep& last = steps_.back();
-    const double window = kCollapseWindow * std::max(last.time.hi, crossing_time_);
-    for (const std::uint32_t body : {last.first, last.second}) {
-      if (is_immovable(body)) continue;
-      const Numbers& own = of_body_[body];
-      const auto since = std::ranges::partition_point(own, [&](std::uint32_t number) {
-        return flight(steps_[number].time, last.time) > window;
-      });
-      const auto count = static_cast<std::size_t>(own.end() - since);
-      // A run that goes on is asked about seldom.
-      if (count < kCollapseSteps || !std::has_single_bit(count)) continue;
-      const Numbers bodies = bodies_since(*since, body);
-      const double first_speed = parting_speed(system(), collision_of(*since));
-      const double last_speed = parting_speed(system(), collision_of(own.back()));
-      const bool has_stopped = !(last_speed > kCollapseSpeed * first_speed);
-      const std::optional<bool> is_collapse =
-          do_three_collapse(system(), bodies, speed_left_of_round());
-      const bool is_exact = exact_times_.size() == steps_.size();
-      if (!is_collapse.value_or(has_stopped) && (is_exact || !has_stopped)) continue;
-      // Doubles cannot step on, even if in truth it goes on.
-      if (is_collapse.value_or(true)) {
-        collapse_ = Collapse{last.time, Integer(steps_.size()), bodies};
-      }
-      certain_until_ = std::min(certain_until_.value_or(kForEver), last.time.hi);
-      is_complete_ = true;
-      return;
-    }
-  }
-
-  /// The share of its parting speed that the last pair has kept since it met before; 1 if this is
-  /// lost in the rounding of its velocities.
-  double speed_left_of_round() const {
-    const StoredStep& last = steps_.back();
-    const auto before = std::find_if(steps_.rbegin() + 1, steps_.rend(), [&](const auto& step) {
-      return step.first == last.first && step.second == last.second;
-    });
-    const auto speed_of = [&](auto step) {
-      return parting_speed(
-          system(),
-          collision_of(static_cast<std::uint32_t>(std::distance(step, steps_.rend()) - 1)));
-    };
-    const double speed = speed_of(steps_.rbegin());
-    const double scale =
-        std::fabs(last.first_after.velocity[0]) + std::fabs(last.second_after.velocity[0]);
-    return before == steps_.rend() || speed < 0x1p-30 * scale ? 1 : speed / speed_of(before);
-  }
-
-  /// The body and all that it has met since a step, directly or through movable ones.
-  Numbers bodies_since(std::uint32_t step, std::uint32_t body) const {
-    std::set<std::uint32_t> bodies = {body};
-    for (std::size_t size = 0; size < bodies.size();) {
-      size = bodies.size();
-      for (std::size_t number = step; number < steps_.size(); ++number) {
-        for (const auto& [own, other] : {std::pair(steps_[number].first, steps_[number].second),
-                                         std::pair(steps_[number].second, steps_[number].first)}) {
-          if (!is_immovable(own) && bodies.contains(own)) bodies.insert(other);
-        }
-      }
-    }
-    return {bodies.begin(), bodies.end()};
+    const Time& now = steps_.back().time;
+    const bool is_exact = exact_times_.size() == steps_.size();
+    const double window = kCollapseWindow * std::max(now.hi, crossing_time_);
+    const auto end = end_of_steps(system(), steps_, of_body_, window, is_exact);
+    if (!end) return;
+    if (end->is_collapse) collapse_ = Collapse{now, Integer(steps_.size()), end->bodies};
+    certain_until_ = std::min(certain_until_.value_or(kForEver), now.hi);
+    is_complete_ = true;
   }
 
   /// By then a run of which all is computed has ended, if rounding has not changed it: bodies that
