@@ -187,7 +187,9 @@ double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wa
 
 double earliest_meeting_aside(const Disc& disc, const Bound& bound, const WallLine& wall) {
   const Approach approach(disc, bound, wall);
-  return approach.never_meets() ? kNever : approach.time_from(disc.time);
+  if (approach.never_meets()) return kNever;
+  // What came before the last meeting was ordered when it was planned.
+  return std::max(approach.time_from(disc.time), time_before(disc.time, bound.time_error));
 }
 
 std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a, const Disc& b,

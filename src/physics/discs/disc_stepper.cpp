@@ -8,158 +8,12 @@
 #include <cstdint>
 #include <optional>
 #include <tuple>
-#include <utility>
 #include <vector>
 
-#include "physics/discs/at_once.hpp"
-#include "physics/discs/bounds.hpp"
-#include "physics/discs/disc_system.hpp"
-#include "physics/discs/event_tree.hpp"
 #include "physics/discs/meeting.hpp"
+#include "physics/discs/stepper.hpp"
 
 namespace piblocks::discs {
-namespace {
-
-/// Another partner that the disc may truly meet before the planned one.
-struct Rival {
-  double possible = kNever;
-  std::uint32_t partner = kNobody;
-  std::uint32_t meetings = 0;  ///< of this partner when it was looked at
-};
-
-/// The next meeting of a disc as far as is known, and when it leaves its cell.
-struct Plan {
-  double time = kNever;
-  double crossing = kNever;
-  std::uint32_t partner = kNobody;  ///< a disc, or the number of discs + a wall
-  std::uint32_t meetings = 0;       ///< of the partner when this was planned
-  bool is_doubt = false;            ///< not a meeting, but from then on one cannot be ruled out
-  double possible = kNever;         ///< while all is certain: they truly do not meet before
-  Rival rival = {};
-};
-
-/// Bodies that touch at one instant.
-struct Cluster {
-  std::vector<std::uint32_t> bodies = {};  ///< the movable ones
-  std::vector<Touch> touches = {};         ///< in the order of TieRank
-};
-
-/// Each disc has one plan, its soonest. If the partner meets another disc first, the plan stays in
-/// the queue until it is due: no sooner can the disc meet anybody else, so it is planned anew then.
-/// (One event a disc: Lubachevsky, "How to simulate billiards and similar systems", J. Comput.
-/// Phys. 94, 1991.)
-class Stepper final : public DiscStepper {
- public:
-  Stepper(const System& system, Search search)
-      : system_(disc_system_of(system)),
-        discs_(system_.discs),
-        number_(static_cast<std::uint32_t>(discs_.size())),
-        cells_(discs_, search),
-        plans_(number_),
-        queue_(number_),
-        is_at_once_(are_at_once(system)),
-        events_(number_),
-        touched_(number_) {
-    for (std::uint32_t disc = 0; disc < number_; ++disc) raise_top_speed(disc);
-    for (const WallLine& wall : system_.walls) {
-      top_speed_ = std::max(top_speed_, std::abs(wall.speed) * (1 + 0x1p-40));
-    }
-    plan_all();
-  }
-
-  std::optional<SteppedCollision> step() override;
-  double certain_until() const override { return until_ * system_.units.time; }
-  Bound bound_of(std::uint32_t body) const override {
-    const Bound& bound = system_.bounds[body];
-    const Units& units = system_.units;
-    return {bound.position * units.length, bound.velocity * units.speed,
-            bound.time_error * units.time};
-  }
-
- private:
-  bool is_certain() const { return until_ == kNever; }
-  bool is_disc(std::uint32_t partner) const { return partner < number_; }
-  const WallLine& wall_of(std::uint32_t partner) const { return system_.walls[partner - number_]; }
-  std::uint32_t end_of_walls() const {
-    return number_ + static_cast<std::uint32_t>(system_.walls.size());
-  }
-
-  /// Whether the order in which a disc meets both does not matter: neither changes how the disc
-  /// moves towards the other. True of a wall along x and one along y.
-  bool are_independent(std::uint32_t one, std::uint32_t other) const {
-    if (is_disc(one) || is_disc(other) || one == kNobody || other == kNobody) return false;
-    const WallLine& a = wall_of(one);
-    const WallLine& b = wall_of(other);
-    return a.normal_error == 0 && b.normal_error == 0 && dot(a.normal, b.normal) == 0;
-  }
-
-  void plan_all();
-  void plan(std::uint32_t disc);
-  void plan_meeting(std::uint32_t disc, std::uint32_t partner);
-  void plan_end_of_margin(std::uint32_t disc);
-  bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
-  bool propose(std::uint32_t disc, const Plan& proposal);
-  bool note_rival(std::uint32_t disc, Plan& plan, const Plan& loser) const;
-  static bool has_rival(const Plan& plan) { return plan.rival.possible < plan.time; }
-  std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
-  template <typename Planned>
-  bool is_stale(const Planned& planned) const;
-  void doubt_graze(std::uint32_t disc);
-  void enqueue(std::uint32_t disc);
-  void cross(std::uint32_t disc);
-
-  SteppedCollision meet(std::uint32_t disc, std::uint32_t partner, double time);
-  void collide_discs(std::uint32_t first, std::uint32_t second, double time);
-  void reflect_disc(std::uint32_t disc, std::uint32_t wall, double time);
-  void count_meeting(std::uint32_t disc, std::uint32_t partner, double time);
-  void renew_cells(double time);
-
-  bool are_of_one_event(std::uint32_t disc, std::uint32_t partner) const;
-  double gap_between(std::uint32_t disc, std::uint32_t partner, double time) const;
-  bool touch(std::uint32_t disc, std::uint32_t partner, double time) const;
-  bool touch(double radius, Vector place, std::uint32_t partner, double time) const;
-  Touch touch_of(std::uint32_t disc, std::uint32_t partner, double time) const;
-  std::uint64_t rank_of(std::uint32_t disc, std::uint32_t partner) const;
-  template <typename Visit>
-  void visit_all(std::uint32_t body, Visit visit) const;
-  bool meet_alone(std::uint32_t disc, std::uint32_t partner, double time) const;
-  Cluster cluster_of(std::uint32_t disc, std::uint32_t partner, double time) const;
-  bool is_single(const Cluster& cluster) const;
-  double least_speed(const Cluster& cluster) const;
-  bool meet_at_once(std::uint32_t disc, std::uint32_t partner, double time);
-  void report(const Stage& stage, double time);
-  void note_event(const Cluster& cluster, double least);
-  double certify_at_once(Cluster& cluster, std::uint32_t disc, std::uint32_t partner, double time,
-                         double least);
-  bool is_clear(const Cluster& cluster, double time, double late) const;
-  void end_certainty(double time);
-  Vector place_of(std::uint32_t disc, double time) const;
-  Motion motion_of(std::uint32_t disc, double time) const;
-  static void require_finite(const SteppedCollision& step);
-
-  double earliest(std::uint32_t disc, std::uint32_t partner) const;
-  double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
-  std::optional<MeetingError> meeting_error(std::uint32_t disc, std::uint32_t partner,
-                                            double time) const;
-  std::optional<MeetingError> certify(std::uint32_t disc, std::uint32_t partner, double time);
-  void raise_top_speed(std::uint32_t disc);
-
-  DiscSystem system_;
-  std::vector<Disc>& discs_;
-  std::uint32_t number_;
-  Cells cells_;
-  std::vector<Plan> plans_;
-  EventTree queue_;
-  double until_ = kNever;
-  double top_speed_ = 0;  ///< while all is certain: of all discs so far, at least
-  std::uint32_t since_build_ = 0;
-  bool is_at_once_;
-  std::vector<SteppedCollision> pending_ = {};  ///< of the last event, the next one last
-  std::uint32_t last_event_ = 0;
-  std::vector<std::uint32_t>
-      events_;  ///< of each disc, the last one at once if it met nobody since
-  std::vector<std::vector<std::uint32_t>> touched_;  ///< whom each disc did not approach after it
-};
 
 // What is planned.
 
@@ -249,12 +103,16 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
 bool Stepper::note_rival(std::uint32_t disc, Plan& plan, const Plan& loser) const {
   if (loser.possible >= plan.rival.possible || loser.partner == plan.partner) return false;
   if (are_independent(loser.partner, plan.partner) && !loser.is_doubt) return false;
-  if (is_at_once_ && loser.possible < plan.time && !loser.is_doubt && !plan.is_doubt &&
-      touch(disc, loser.partner, plan.time)) {
-    return false;
-  }
+  if (are_joint(disc, plan, loser)) return false;
   plan.rival = {loser.possible, loser.partner, loser.meetings};
   return has_rival(plan);
+}
+
+/// Whether both will be contacts of one meeting, if that turns out to be certain.
+bool Stepper::are_joint(std::uint32_t disc, const Plan& plan, const Plan& loser) const {
+  if (!is_at_once_ || loser.possible >= plan.time || loser.is_doubt || plan.is_doubt) return false;
+  const bool is_soon = top_speed_ * (plan.time - loser.possible) < kTouch * discs_[disc].radius;
+  return is_soon && touch(disc, loser.partner, plan.time);
 }
 
 /// The order of simultaneous events: doubts, then pairs as TieRank says, in one number.
@@ -267,11 +125,6 @@ std::uint64_t Stepper::rank_of(std::uint32_t disc, std::uint32_t partner) const 
   const TieRank rank = TieRank::of(disc, true, partner, is_partner_movable);
   const std::uint64_t group = rank.has_immovable ? std::uint64_t{1} << 63 : 0;
   return group | (std::uint64_t{rank.first} << 32) | rank.second;
-}
-
-template <typename Planned>
-bool Stepper::is_stale(const Planned& planned) const {
-  return is_disc(planned.partner) && discs_[planned.partner].meetings != planned.meetings;
 }
 
 /// A meeting that may truly be none is in doubt from when on it is possible.
@@ -393,203 +246,6 @@ void Stepper::count_meeting(std::uint32_t disc, std::uint32_t partner, double ti
   events_[disc] = 0;
 }
 
-// Several contacts at one instant.
-
-/// Whether a disc has met nobody since several contacts at once; of a movable partner, the same
-/// ones.
-bool Stepper::are_of_one_event(std::uint32_t disc, std::uint32_t partner) const {
-  if (events_[disc] == 0) return false;
-  return !is_disc(partner) || !system_.is_movable(partner) || events_[partner] == events_[disc];
-}
-
-double Stepper::gap_between(std::uint32_t disc, std::uint32_t partner, double time) const {
-  const Disc& own = discs_[disc];
-  if (!is_disc(partner)) return gap_to(wall_of(partner), own, time);
-  const Disc& other = discs_[partner];
-  return length(position_at(other, time) - position_at(own, time)) - own.radius - other.radius;
-}
-
-bool Stepper::touch(std::uint32_t disc, std::uint32_t partner, double time) const {
-  return touch(discs_[disc].radius, position_at(discs_[disc], time), partner, time);
-}
-
-bool Stepper::touch(double radius, Vector place, std::uint32_t partner, double time) const {
-  if (!is_disc(partner)) {
-    const WallLine& wall = wall_of(partner);
-    return dot(wall.normal, place) - (wall.offset + wall.speed * time) <= radius * (1 + kTouch);
-  }
-  const Disc& other = discs_[partner];
-  const Vector apart = position_at(other, time) - place;
-  const double reach = (radius + other.radius) * (1 + kTouch);
-  return dot(apart, apart) <= reach * reach;
-}
-
-/// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
-template <typename Visit>
-void Stepper::visit_all(std::uint32_t body, Visit visit) const {
-  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
-  cells_.visit_near(body, [&](std::uint32_t other) {
-    if (other != body) visit(other);
-  });
-}
-
-/// Whether these two are all that touches at the place where they meet.
-bool Stepper::meet_alone(std::uint32_t disc, std::uint32_t partner, double time) const {
-  bool are_alone = true;
-  const auto look_around = [&](std::uint32_t body, std::uint32_t met) {
-    if (!is_disc(body) || !system_.is_movable(body)) return;
-    const double radius = discs_[body].radius;
-    const Vector place = position_at(discs_[body], time);
-    visit_all(body, [&](std::uint32_t other) {
-      if (other != met && touch(radius, place, other, time)) are_alone = false;
-    });
-  };
-  look_around(disc, partner);
-  look_around(partner, disc);
-  return are_alone;
-}
-
-Touch Stepper::touch_of(std::uint32_t disc, std::uint32_t partner, double time) const {
-  Touch touch{disc, partner, {}, 0, system_.restitution(disc, partner)};
-  if (is_disc(partner)) {
-    const Vector apart = position_at(discs_[partner], time) - position_at(discs_[disc], time);
-    touch.normal = (1 / length(apart)) * apart;
-  } else {
-    touch.normal = -1 * wall_of(partner).normal;
-    touch.normal_error = wall_of(partner).normal_error;
-  }
-  return touch;
-}
-
-/// All that touch these two directly or through movable bodies.
-Cluster Stepper::cluster_of(std::uint32_t disc, std::uint32_t partner, double time) const {
-  Cluster cluster;
-  const auto add = [&](std::uint32_t body) {
-    if (!is_disc(body) || !system_.is_movable(body)) return false;
-    const bool is_known = std::ranges::find(cluster.bodies, body) != cluster.bodies.end();
-    if (!is_known) cluster.bodies.push_back(body);
-    return true;
-  };
-  add(disc);
-  add(partner);
-  for (std::size_t i = 0; i < cluster.bodies.size(); ++i) {
-    const std::uint32_t body = cluster.bodies[i];
-    visit_all(body, [&](std::uint32_t other) {
-      const bool is_pair = std::minmax(body, other) == std::minmax(disc, partner);
-      if (!is_pair && !touch(body, other, time)) return;
-      if (add(other) && body > other) return;
-      cluster.touches.push_back(touch_of(body, other, time));
-    });
-  }
-  const auto rank = [&](const Touch& touch) { return rank_of(touch.first, touch.second); };
-  std::ranges::sort(cluster.touches, {}, rank);
-  const auto repeated = std::ranges::unique(cluster.touches, {}, rank);
-  cluster.touches.erase(repeated.begin(), repeated.end());
-  return cluster;
-}
-
-/// Whether the order of the touches does not matter: there is one, or a disc is in a corner.
-bool Stepper::is_single(const Cluster& cluster) const {
-  const std::vector<Touch>& touches = cluster.touches;
-  for (std::size_t i = 1; i < touches.size(); ++i) {
-    if (!are_independent(touches[0].second, touches[i].second)) return false;
-  }
-  return touches.size() < 3;
-}
-
-double Stepper::least_speed(const Cluster& cluster) const {
-  double fastest = 0;
-  const auto look_at = [&](std::uint32_t body) {
-    const double speed =
-        is_disc(body) ? length(discs_[body].velocity) : std::abs(wall_of(body).speed);
-    fastest = std::max(fastest, speed);
-  };
-  for (const Touch& touch : cluster.touches) {
-    look_at(touch.first);
-    look_at(touch.second);
-  }
-  return kTouch * fastest;
-}
-
-/// @return false if these two meet alone, or cannot be taken together with others
-bool Stepper::meet_at_once(std::uint32_t disc, std::uint32_t partner, double time) {
-  constexpr int kMostStages = 64;
-  if (meet_alone(disc, partner, time)) return false;
-  Cluster cluster = cluster_of(disc, partner, time);
-  if (is_single(cluster)) return false;
-  const double least = least_speed(cluster);
-  std::optional<Stage> stage = stage_of(system_, cluster.touches, least);
-  if (!stage || stage->touches.empty()) return false;
-  const double late = is_certain() ? certify_at_once(cluster, disc, partner, time, least) : 0;
-  if (is_certain()) stage = stage_of(system_, cluster.touches, least);  // with errors of normals
-  std::vector<std::pair<std::uint32_t, Bound>> struck;
-  std::vector<Vector> before;
-  for (int k = 0; stage && !stage->touches.empty() && k < kMostStages; ++k) {
-    for (const Touch& touch : stage->touches) {
-      for (const std::uint32_t body : {touch.first, touch.second}) {
-        if (!is_disc(body) || !system_.is_movable(body)) continue;
-        const auto is_body = [&](const auto& one) { return one.first == body; };
-        if (std::ranges::any_of(struck, is_body)) continue;
-        Bound& bound = system_.bounds[body];
-        bound.position = drift(discs_[body], bound, time);
-        struck.emplace_back(body, bound);
-        before.push_back(discs_[body].velocity);
-        count_meeting(body, kNobody, time);
-      }
-    }
-    if (is_certain() && !widen(system_, *stage)) end_certainty(time - late);
-    apply(system_, *stage);
-    report(*stage, time);
-    if (is_certain() && !are_decided(system_, cluster.touches, least)) end_certainty(time - late);
-    stage = stage_of(system_, cluster.touches, least);
-  }
-  if (is_certain() && (!stage || !stage->touches.empty())) end_certainty(time - late);
-  std::ranges::reverse(pending_);
-  note_event(cluster, least);
-  for (std::size_t i = 0; i < struck.size(); ++i) {
-    const auto& [body, old] = struck[i];
-    Bound& bound = system_.bounds[body];
-    const double change = length(discs_[body].velocity - before[i]);
-    // The new flight begins late, or early: at another place by that much.
-    bound.position =
-        (old.position + (change + old.velocity + bound.velocity) * late) * (1 + 0x1p-40);
-    bound.time_error = late;
-    raise_top_speed(body);
-  }
-  for (const auto& [body, old] : struck) plan(body);
-  renew_cells(time);
-  return true;
-}
-
-void Stepper::report(const Stage& stage, double time) {
-  for (const Touch& touch : stage.touches) {
-    SteppedCollision step;
-    step.time = {time * system_.units.time, 0};
-    step.is_tied = stage.is_tied();
-    step.first = is_disc(touch.second) ? std::min(touch.first, touch.second) : touch.first;
-    step.second = std::max(touch.first, touch.second);
-    step.first_after = motion_of(step.first, time);
-    if (is_disc(step.second)) step.second_after = motion_of(step.second, time);
-    require_finite(step);
-    pending_.push_back(step);
-  }
-}
-
-/// From now on those that touch and do not approach have just met.
-void Stepper::note_event(const Cluster& cluster, double least) {
-  ++last_event_;
-  for (const std::uint32_t body : cluster.bodies) {
-    events_[body] = last_event_;
-    touched_[body].clear();
-  }
-  for (const Touch& touch : cluster.touches) {
-    if (closing_speed(system_, touch) > least) continue;
-    touched_[touch.first].push_back(touch.second);
-    if (!is_disc(touch.second) || !system_.is_movable(touch.second)) continue;
-    touched_[touch.second].push_back(touch.first);
-  }
-}
-
 /// Only when discs have met: discs that fly apart for ever need no cells.
 void Stepper::renew_cells(double time) {
   if (++since_build_ < std::max(number_, 1000u)) return;
@@ -683,71 +339,11 @@ std::optional<MeetingError> Stepper::certify(std::uint32_t disc, std::uint32_t p
   return std::nullopt;
 }
 
-/// Ends certainty if rounding leaves in doubt which bodies touch or which approach. Else fills in
-/// the errors of the normals. @return by how much the time may be wrong
-double Stepper::certify_at_once(Cluster& cluster, std::uint32_t disc, std::uint32_t partner,
-                                double time, double least) {
-  double late = 0;
-  double doubt = time;
-  bool is_known = true;
-  for (const Touch& touch : cluster.touches) {
-    const bool is_pair = std::minmax(touch.first, touch.second) == std::minmax(disc, partner);
-    if (!have_just_met(touch.first, touch.second)) {
-      doubt = std::min(doubt, earliest(touch.first, touch.second));
-    }
-    if (closing_speed(system_, touch) <= least) {
-      is_known &= !is_pair;
-      continue;
-    }
-    const auto meeting = meeting_error(touch.first, touch.second, time);
-    is_known &= meeting.has_value();
-    if (meeting) late = std::max(late, meeting->time_error);
-  }
-  for (Touch& touch : cluster.touches) {
-    if (!is_disc(touch.second)) continue;
-    const Disc& a = discs_[touch.first];
-    const Disc& b = discs_[touch.second];
-    const Bound& bound_a = system_.bounds[touch.first];
-    const Bound& bound_b = system_.bounds[touch.second];
-    const Vector w = b.velocity - a.velocity;
-    const double sideways = std::abs(dot(w, {-touch.normal.y, touch.normal.x})) + bound_a.velocity +
-                            bound_b.velocity + 0x1p-50 * length(w);
-    const double moved = gap_error(a, bound_a, b, bound_b, time) + sideways * late;
-    touch.normal_error = moved / (a.radius + b.radius) * (1 + 0x1p-30);
-  }
-  is_known = is_known && is_clear(cluster, time, late);
-  if (!is_known || !are_decided(system_, cluster.touches, least)) end_certainty(doubt);
-  return late;
-}
-
-/// Whether each body that is near one of these surely touches it, or surely does not.
-bool Stepper::is_clear(const Cluster& cluster, double time, double late) const {
-  bool is_clear = true;
-  for (const std::uint32_t body : cluster.bodies) {
-    visit_all(body, [&](std::uint32_t other) {
-      const Disc& own = discs_[body];
-      const std::vector<Bound>& bounds = system_.bounds;
-      const double error =
-          2 * top_speed_ * late +
-          (is_disc(other) ? gap_error(own, bounds[body], discs_[other], bounds[other], time)
-                          : gap_error(own, bounds[body], wall_of(other), time));
-      const double limit = kTouch * (own.radius + (is_disc(other) ? discs_[other].radius : 0));
-      const double beyond = std::abs(gap_between(body, other, time) - limit);
-      // Touching discs may overlap, but not by much.
-      if (!(beyond > 2 * error) || !(error < limit)) is_clear = false;
-    });
-  }
-  return is_clear;
-}
-
-void Stepper::end_certainty(double time) { until_ = std::clamp(time, 0.0, until_); }
-
 void Stepper::raise_top_speed(std::uint32_t disc) {
   const double speed = length(discs_[disc].velocity) + system_.bounds[disc].velocity;
   top_speed_ = std::max(top_speed_, speed * (1 + 0x1p-40) + 0x1p-440);
 }
 
-}  // namespace
 }  // namespace piblocks::discs
 
 namespace piblocks {
