@@ -77,7 +77,7 @@ export class Saving {
     this.#session = session;
     for (const button of this.#buttons) {
       button.addEventListener("click", () => {
-        pause();
+        if (!isFilm(button.dataset.save)) pause();
         this.#save(button.dataset.save);
       });
     }
