@@ -13,7 +13,6 @@ std::uint64_t rounded_up(std::int64_t value, std::int64_t factor, std::int64_t d
   return static_cast<std::uint64_t>(whole + (value % divisor * factor + divisor - 1) / divisor);
 }
 
-/// A track of AAC.
 class SoundTrack : private TrackWriter {
  public:
   SoundTrack(const Mp4Sound& sound, const SoundTables& tables, std::int64_t movie_scale)
@@ -40,7 +39,7 @@ class SoundTrack : private TrackWriter {
     const std::uint64_t packets = tables_.sizes.size();
     box("stsd", [&] {
       put_all({0, 1});
-      box("mp4a", [&] { put_sample_entry(); });
+      box(is_opus() ? "Opus" : "mp4a", [&] { put_sample_entry(); });
     });
     // The silence that fills up the last packet is not counted.
     const auto whole = static_cast<std::uint64_t>(sound_.packet_samples);
@@ -51,11 +50,11 @@ class SoundTrack : private TrackWriter {
       if (packets > 1) put_all({packets - 1, whole});
       put_all({1, last});
     });
-    box("sgpd", [&] {  // each packet needs the one before it
+    box("sgpd", [&] {
       put(1 << 24, 4);
       put("roll");
       put_all({2, 1});
-      put(0xffff, 2);
+      put(0x10000 - packets_before(), 2);
     });
     box("sbgp", [&] {
       put(0, 4);
@@ -73,7 +72,29 @@ class SoundTrack : private TrackWriter {
     put(16, 2);  // the size of a sample, always so
     put(0, 4);
     put(static_cast<std::uint64_t>(sound_.rate_hz) << 16, 4);
-    box("esds", [&] { put_elementary_stream(); });
+    if (is_opus()) {
+      box("dOps", [&] { put_opus_header(); });
+    } else {
+      box("esds", [&] { put_elementary_stream(); });
+    }
+  }
+  bool is_opus() const { return sound_.codec == Mp4SoundCodec::opus; }
+  /// That a decoder needs before a packet: one of AAC, 80 ms of Opus.
+  std::uint64_t packets_before() const {
+    return is_opus() ? rounded_up(sound_.rate_hz, 80, 1000L * sound_.packet_samples) : 1;
+  }
+  /// The identification header, whose numbers have their lowest byte first there ("Encapsulation of
+  /// Opus in ISO Base Media File Format", 4.3.2).
+  void put_opus_header() {
+    const auto put_reversed = [&](std::size_t at, std::size_t size_bytes) {
+      for (std::size_t i = at + size_bytes; i > at; --i) put(sound_.config[i - 1], 1);
+    };
+    put(0, 1);                 // version
+    put(sound_.config[9], 1);  // channels
+    put_reversed(10, 2);       // pre-skip
+    put_reversed(12, 4);       // rate of the samples before they were encoded
+    put_reversed(16, 2);       // gain
+    put(0, 1);                 // channel mapping family
   }
   /// ISO/IEC 14496-1, 7.2.6: a tag, the bytes of its content, the content.
   void put_elementary_stream() {

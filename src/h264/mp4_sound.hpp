@@ -1,4 +1,4 @@
-// The track of sound of an MP4 file (ISO/IEC 14496-12 and -14).
+// The track of sound of an MP4 file (ISO/IEC 14496-12 and -14, and for Opus its encapsulation).
 // In: what is known of it, and where its packets are. Out: its box, trak.
 #pragma once
 

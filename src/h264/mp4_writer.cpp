@@ -79,10 +79,22 @@ TrackFacts facts_of(const Mp4Track& track) {
   return facts;
 }
 
+void check_opus(const Mp4Sound& sound) {
+  constexpr std::string_view kMagic = "OpusHead";
+  constexpr std::size_t kHeader_bytes = 19;
+  const std::vector<std::uint8_t>& header = sound.config;
+  const bool is_header = header.size() == kHeader_bytes &&
+                         std::ranges::equal(kMagic, Bytes(header).first(kMagic.size())) &&
+                         header.back() == 0;
+  if (is_header && sound.rate_hz == 48000) return;
+  throw Error("h264: Opus of an MP4 file has no header of mapping family 0, or not 48000 Hz");
+}
+
 std::optional<Mp4Sound> checked(const std::optional<Mp4Sound>& sound) {
   if (!sound) return sound;
   in_range(sound->rate_hz, 65535, "sound.rate_hz");
   in_range(std::ssize(sound->config), 64, "the size of sound.config");
+  if (sound->codec == Mp4SoundCodec::opus) check_opus(*sound);
   in_range(sound->packet_samples, 65535, "sound.packet_samples");
   in_range(sound->delay + 1, 65536, "sound.delay + 1");
   in_range(sound->samples, std::int64_t{1} << 47, "sound.samples");

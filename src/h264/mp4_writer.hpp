@@ -1,4 +1,4 @@
-// H.264, and AAC and captions if wanted, in an MP4 file (ISO/IEC 14496-12 and -15), which is
+// H.264, and sound and captions if wanted, in an MP4 file (ISO/IEC 14496-12 and -15), which is
 // written once. In: a stream's headers, its access units one after another, packets of sound,
 // texts. Out: bytes, and where they go.
 //
@@ -20,13 +20,18 @@
 
 namespace piblocks::h264 {
 
-/// A track of AAC in stereo.
+enum class Mp4SoundCodec : std::uint8_t { aac, opus };
+
+/// A track of sound in stereo.
 struct Mp4Sound {
-  int rate_hz;                       ///< 1 … 65535
-  std::vector<std::uint8_t> config;  ///< AudioSpecificConfig (ISO/IEC 14496-3), up to 64 bytes
-  int packet_samples;                ///< of each packet
-  int delay;                         ///< samples before those that are heard
-  std::int64_t samples;              ///< that are heard, 1 … 2^47
+  Mp4SoundCodec codec = Mp4SoundCodec::aac;
+  int rate_hz;  ///< 1 … 65535; 48000 of Opus
+  /// Of AAC, AudioSpecificConfig (ISO/IEC 14496-3), up to 64 bytes. Of Opus, its identification
+  /// header (RFC 7845, 5.1) of channel mapping family 0, 19 bytes.
+  std::vector<std::uint8_t> config;
+  int packet_samples;    ///< of each packet
+  int delay;             ///< samples before those that are heard
+  std::int64_t samples;  ///< that are heard, 1 … 2^47
 };
 
 /// A text that is shown from a picture on until the next one; an empty text is none.

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -51,6 +52,12 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
 
 /// The names of all these files, in the bundle's folder.
 std::vector<std::string> bundle_files(const RenderJob& job);
+
+/// join() of the shards of a silent MP4, to one with sound that was encoded elsewhere.
+/// @param sound  of the whole film; null: it stays silent
+Rendered join_with_sound(const std::vector<std::string>& parts, const std::string& output,
+                         const std::shared_ptr<const CodedSound>& sound,
+                         const std::stop_token& stop = {}, bool overwrite = false);
 
 /// Whether an output of this name is a page: `*.html`.
 bool is_page(const std::string& output);

@@ -15,6 +15,7 @@
 #include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "media/libav/av_module.hpp"
+#include "media/mp4/coded_sound.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
 #include "render/film.hpp"
@@ -221,6 +222,13 @@ class ShardSound final : public PacketSource {
   std::size_t next_ = 0;
 };
 
+/// Null if there is none.
+std::unique_ptr<PacketSource> sound_of(const JobDescription& job, const ShardFile& first) {
+  if (!job.sound) return nullptr;
+  if (job.sound->coded) return packets_of(*job.sound->coded, *job.sound);
+  return std::make_unique<ShardSound>(first.path);
+}
+
 JobDescription read_description(const ShardFile& part) {
   JobDescription job;
   job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
@@ -291,6 +299,12 @@ bool has_shard(const std::string& path, const ShardHeader& header, const std::st
 
 Rendered join(const std::vector<std::string>& parts, const std::string& output,
               const std::stop_token& stop, bool overwrite) {
+  return join_with_sound(parts, output, nullptr, stop, overwrite);
+}
+
+Rendered join_with_sound(const std::vector<std::string>& parts, const std::string& output,
+                         const std::shared_ptr<const CodedSound>& sound,
+                         const std::stop_token& stop, bool overwrite) {
   if (parts.empty()) throw UsageError("join: no parts are given");
   if (is_page(output)) {
     throw UsageError(
@@ -299,13 +313,17 @@ Rendered join(const std::vector<std::string>& parts, const std::string& output,
   const std::vector<ShardFile> in_order = read_headers(parts);
   check_same_job(in_order);
   check_all_there(in_order);
-  const JobDescription job = read_description(in_order.front());
+  JobDescription job = read_description(in_order.front());
+  if (sound) {
+    job.sound = sound_format({0, job.frame_count - 1}, job.format.frame_rate);
+    job.sound->coded = sound;
+  }
   const Output joined = set_up_output(output, job.format, job.encoder, job.sound, overwrite);
   check_output(in_order, output, joined, job);
 
   const auto sink = joined.open({job.frame_count});
-  std::optional<ShardSound> sound;
-  if (job.sound) sink->take_sound(sound.emplace(in_order.front().path));
+  const std::unique_ptr<PacketSource> packets = sound_of(job, in_order.front());
+  if (packets) sink->take_sound(*packets);
   std::int64_t frames = 0;
   for (const ShardFile& part : in_order) {
     ShardReader reader(part.path);

@@ -16,6 +16,7 @@
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
+#include "media/mp4/coded_sound.hpp"
 #include "render/renderings.hpp"
 #include "web/choices.hpp"
 #include "web/facts.hpp"
@@ -29,6 +30,8 @@ namespace {
 Screen screen;
 std::unique_ptr<LiveScript> live;
 std::unique_ptr<LiveSound> sound;
+/// What the browser has encoded of it.
+std::shared_ptr<CodedSound> coded;
 LiveScript::Place place;
 /// What the last call has to say; the page reads it before the next one.
 std::string answer;
@@ -151,11 +154,11 @@ EMSCRIPTEN_KEEPALIVE bool live_save(const char* name) {
 }
 
 /// Renders the film, or a shard of it, to a file of the page's memory.
-/// @param number, count  the shard; count is 1 for the whole film. Answers with the file's name.
+/// @param number, count  the shard; count is 0 for the whole film. Answers with the file's name.
 EMSCRIPTEN_KEEPALIVE bool live_render(const char* name, int number, int count) {
   return store_answer([&] {
     RenderJob job{.script = opened().script(), .output = name};
-    if (count > 1) job.shard = Shard{number, count};
+    if (count > 0) job.shard = Shard{number, count};
     render(job, [](const Progress& progress) {
       report(static_cast<double>(progress.frames_done), static_cast<double>(progress.frame_count));
     });
@@ -163,14 +166,40 @@ EMSCRIPTEN_KEEPALIVE bool live_render(const char* name, int number, int count) {
   });
 }
 
-/// Joins the shards of a rendering, which are files of the page's memory.
+/// Begins sound for the next live_join().
+/// @param codec  as browsers call it: "mp4a.40.2" or "opus". @param config  as Mp4Sound has it
+EMSCRIPTEN_KEEPALIVE bool live_begin_sound(const char* codec, const std::uint8_t* config, int size,
+                                           int packet_samples, int delay) {
+  return store_answer([&] {
+    coded = std::make_shared<CodedSound>();
+    h264::Mp4Sound& track = coded->track;
+    track.codec =
+        codec == std::string_view("opus") ? h264::Mp4SoundCodec::opus : h264::Mp4SoundCodec::aac;
+    track.config.assign(config, config + size);
+    track.packet_samples = packet_samples;
+    track.delay = delay;
+    return std::string();
+  });
+}
+
+/// Adds a packet to it.
+EMSCRIPTEN_KEEPALIVE bool live_add_sound(const std::uint8_t* packet, int size) {
+  return store_answer([&] {
+    if (!coded) throw UsageError("page: no sound was begun");
+    coded->packets.emplace_back(packet, packet + size);
+    return std::string();
+  });
+}
+
+/// Joins the shards of a rendering, which are files of the page's memory, and the sound that was
+/// begun, if any.
 EMSCRIPTEN_KEEPALIVE bool live_join(const char* name, int count) {
   return store_answer([&] {
     std::vector<std::string> shards;
     for (int number = 1; number <= count; ++number) {
       shards.push_back(shard_name(name, Shard{number, count}));
     }
-    join(shards, name);
+    join_with_sound(shards, name, std::exchange(coded, nullptr));
     return std::string(name);
   });
 }

@@ -106,6 +106,46 @@ INSTANTIATE_TEST_SUITE_P(All, Mp4SoundTrack,
                                          SoundCase{500, 400001, 0}, SoundCase{90, 30000, 1},
                                          SoundCase{30, 1'000'000, 0}));
 
+/// The identification header of an encoder with a delay of 312 samples.
+ByteVector opus_header() {
+  return {'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1, 2, 0x38, 1, 0x80, 0xbb, 0, 0, 0x34, 0x12, 0};
+}
+
+TEST(Mp4Tracks, OfOpusSayWhatItsDecoderNeeds) {
+  Mp4Track track = track_of(60);
+  track.sound = {.codec = Mp4SoundCodec::opus,
+                 .rate_hz = 48000,
+                 .config = opus_header(),
+                 .packet_samples = 960,
+                 .delay = 312,
+                 .samples = 48000};
+  Mp4Memory file;
+  Mp4Writer writer(track, file.writer());
+  append_pictures(writer, 60);
+  for (std::int64_t i = 0; i < 51; ++i) writer.append_sound(packet_of(i));
+  writer.finish();
+  const Mp4Boxes boxes(file.bytes(), file.size);
+  const std::string tables = tables_of("moov/trak'");
+  const ByteVector entry = boxes.at(tables + "stsd");
+  EXPECT_EQ(std::string(entry.begin() + 12, entry.begin() + 16), "Opus");
+  const ByteVector expected = {0, 0,    0, 19, 'd',  'O',  'p',  's',  0, 2,
+                               1, 0x38, 0, 0,  0xbb, 0x80, 0x12, 0x34, 0};
+  EXPECT_TRUE(std::ranges::equal(std::span(entry).subspan(8 + 36), expected));
+  EXPECT_EQ(number_at(boxes.at(tables + "sgpd"), 16, 2), 0x10000 - 4u) << "80 ms before";
+  EXPECT_EQ(number_at(boxes.at("moov/trak'/edts/elst"), 12), 312u);
+
+  const std::string problem =
+      "h264: Opus of an MP4 file has no header of mapping family 0, or not 48000 Hz";
+  track.sound->rate_hz = 24000;
+  EXPECT_EQ(problem_of(track), problem);
+  track.sound->rate_hz = 48000;
+  EXPECT_EQ(problem_of(track), "");
+  track.sound->config.back() = 1;
+  EXPECT_EQ(problem_of(track), problem);
+  track.sound->config = {0x11, 0x90};
+  EXPECT_EQ(problem_of(track), problem);
+}
+
 TEST(Mp4Tracks, ShowCaptionsFromPictureToPicture) {
   Mp4Track track = track_of(100);
   track.captions = {{10, "first"}, {25, ""}, {99, "π"}};

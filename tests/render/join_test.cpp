@@ -8,8 +8,13 @@
 #include <filesystem>
 
 #include "draw/composed_pictures.hpp"
+#include "media/libav/av_module.hpp"
+#include "media/mp4/coded_sound.hpp"
+#include "render/film.hpp"
+#include "render/renderings.hpp"
 #include "rendered_parts.hpp"
 #include "support/contains.hpp"
+#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
@@ -57,6 +62,36 @@ TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
     }
     fs::remove_all(path("whole"));
   }
+}
+
+/// What our own film's encoder makes of the sound, and three packets too many.
+std::shared_ptr<CodedSound> coded_sound_of(const Scene& scene) {
+  const Film film(scene, {FilmUse::audio_only});
+  const SoundFormat format = sound_format(film.frames(), film.view().frame_rate);
+  const AacSound encoder = av_module().aac_sound(format);
+  auto coded = std::make_shared<CodedSound>();
+  coded->track = encoder.track;
+  coded->track.samples = 0;
+  FilmSound samples(film, film.frames(), {}, [](std::int64_t) {});
+  const auto packets = encoder.encode(samples);
+  while (auto packet = packets->next()) coded->packets.push_back(std::move(packet->bytes));
+  coded->packets.resize(coded->packets.size() + 3, {1});
+  return coded;
+}
+
+TEST_F(JoinTest, AddsSoundThatWasEncodedElsewhere) {
+  Scene heard = scene("sound.on", "true");
+  render_silently({heard, path("whole.mp4")});
+  const auto parts = rendered_parts(3, {scene("sound.on", "false"), path("part.mp4")});
+  const auto sound = coded_sound_of(heard);
+  EXPECT_EQ(join_with_sound(parts, path("joined.mp4"), sound).frame_count, 144);
+  EXPECT_TRUE(file_contents(path("joined.mp4")) == file_contents(path("whole.mp4")));
+
+  sound->packets.resize(100);
+  EXPECT_EQ(testing_support::message_of<MediaError>(
+                [&] { join_with_sound(parts, path("short.mp4"), sound); }),
+            "sound: cannot write to '" + path("short.mp4") + "': the end of the sound is missing");
+  EXPECT_FALSE(fs::exists(path("short.mp4")));
 }
 
 TEST_F(JoinTest, TakesMoreFilesThanMayBeOpen) {

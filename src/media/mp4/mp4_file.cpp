@@ -12,6 +12,7 @@
 #include "core/output_file.hpp"
 #include "h264/mp4_writer.hpp"
 #include "media/libav/av_module.hpp"
+#include "media/mp4/coded_sound.hpp"
 #include "media/mp4/h264_chunk.hpp"
 #include "media/output/output_kinds.hpp"
 
@@ -22,7 +23,15 @@ namespace {
 struct Parts {
   explicit Parts(const OutputRequest& request)
       : pictures(request.format, request.settings), captions(request.captions) {
-    if (request.sound) sound = av_module().aac_sound(*request.sound);
+    if (!request.sound) return;
+    if (request.sound->coded) {
+      sound_track = request.sound->coded->track;
+      sound_track->rate_hz = request.sound->rate_hz;
+      sound_track->samples = request.sound->size;
+    } else {
+      sound = av_module().aac_sound(*request.sound);
+      sound_track = sound->track;
+    }
   }
   std::string signature() const {
     const std::string name = "mp4 by " + pictures.signature();
@@ -30,7 +39,8 @@ struct Parts {
   }
 
   H264Stream pictures;
-  std::optional<AacSound> sound;
+  std::optional<AacSound> sound;  // that is still to be encoded
+  std::optional<h264::Mp4Sound> sound_track;
   std::vector<Caption> captions;
 };
 
@@ -44,7 +54,7 @@ h264::Mp4Track track_of(const Parts& parts, std::int64_t frames) {
       .max_pictures = frames,
       // A chunk that is handed over has one more. No chunk but the last is shorter than half.
       .max_key_frames = std::min(frames, 4 * (frames / stream.frames_per_chunk + 1))};
-  if (parts.sound) track.sound = parts.sound->track;
+  track.sound = parts.sound_track;
   for (const auto& [frame, text] : parts.captions) track.captions.push_back({frame, text});
   return track;
 }
@@ -59,7 +69,7 @@ class Mp4File final : public FrameSink {
                 [this](std::uint64_t offset, ByteSpan bytes) { file_.write_at(offset, bytes); }) {}
 
   void take_sound(PacketSource& sound) override {
-    if (!parts_->sound) return FrameSink::take_sound(sound);
+    if (!parts_->sound_track) return FrameSink::take_sound(sound);
     sound_ = &sound;
   }
   void append(const EncodedChunk& chunk) override {
@@ -69,7 +79,7 @@ class Mp4File final : public FrameSink {
   }
   void finish() override {
     while (sound_ != nullptr && next_sound()) append_sound();
-    if (parts_->sound && heard_ < parts_->sound->track.samples) {
+    if (parts_->sound_track && heard_ < parts_->sound_track->samples) {
       throw MediaError(
           fmt::format("sound: cannot write to '{}': the end of the sound is missing", name_));
     }
@@ -84,12 +94,12 @@ class Mp4File final : public FrameSink {
   }
   void append_sound() {
     writer_.append_sound(packet_->bytes);
-    heard_ = packet_->pts + parts_->sound->track.packet_samples;
+    heard_ = packet_->pts + parts_->sound_track->packet_samples;
     packet_.reset();
   }
   /// Packets that begin before this frame is shown.
   void append_sound_before(std::int64_t frame) {
-    const Rational begin = Rational(to_integer(frame)) * parts_->sound->track.rate_hz /
+    const Rational begin = Rational(to_integer(frame)) * parts_->sound_track->rate_hz /
                            parts_->pictures.format.frame_rate;
     while (next_sound() && to_integer(packet_->pts) < begin) append_sound();
   }

@@ -21,6 +21,7 @@
 namespace piblocks {
 
 class OverwriteCheck;
+struct CodedSound;
 
 /// What every frame of an output has in common.
 struct VideoFormat {
@@ -34,6 +35,8 @@ struct VideoFormat {
 struct SoundFormat {
   int rate_hz = 48000;
   std::int64_t size = 0;  ///< pairs of samples, >= 0
+  /// What the samples have been encoded to, for MP4 of our own encoder; null: they are still to be.
+  std::shared_ptr<const CodedSound> coded = {};
 };
 
 /// A text that is shown from a frame on until the next one; an empty text is none.

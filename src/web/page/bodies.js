@@ -63,10 +63,10 @@ export class Bodies {
     const columns = columnsOf(dimensions);
     this.#cells = rows.map((row, i) => columns.map(column => this.#cell(row, i + 1, column)));
     this.#table.replaceChildren(
-      element("tr", {}, element("th"), ...columns.map(({name}) => element("th", {scope: "col"}, name)), element("td")),
+      element("tr", {}, element("th"), element("td"), ...columns.map(({name}) => element("th", {scope: "col"}, name))),
       ...this.#cells.map((cells, i) => element("tr", {}, element("th", {scope: "row"}, String(i + 1)),
-        ...cells.map(cell => element("td", {}, cell)),
-        element("td", {}, ...rows.length > 1 ? [this.#remover(i + 1)] : []))));
+        element("td", {}, ...rows.length > 1 ? [this.#remover(i + 1)] : []),
+        ...cells.map(cell => element("td", {}, cell)))));
   }
 
   /** @param {{name: string, property: string, i?: number}} column */

@@ -60,7 +60,6 @@ export class Lecture {
     this.#isOn = true;
     document.body.classList.add("lecture");
     byId("full-screen").setAttribute("aria-pressed", "true");
-    this.#screen.append(byId("row"));
     // A clicker's keys are not those of a field.
     byId("settings").inert = true;
     byId("full-screen").focus();
@@ -77,7 +76,6 @@ export class Lecture {
     this.#screen.classList.remove("blank");
     byId("settings").inert = false;
     byId("full-screen").setAttribute("aria-pressed", "false");
-    byId("controls").prepend(byId("row"));
     if (document.fullscreenElement) document.exitFullscreen();
     this.update();
   }

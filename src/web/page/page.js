@@ -2,7 +2,7 @@
 // tells what the program makes of them, and the parts show that.
 
 import {Bodies} from "./bodies.js";
-import {approximate, byId, element, sayIn, targetOf} from "./dom.js";
+import {byId, element, sayIn, targetOf} from "./dom.js";
 import {Fields} from "./fields.js";
 import {Steps} from "./history.js";
 import {listenToKeys} from "./keys.js";
@@ -115,7 +115,8 @@ function updateAddress() {
   }, 250);
 }
 
-const addressNow = () => address + placeAddress(session.snapshot.place, shown, session.facts.rate);
+/** Where a film just happens to be, it is sent from its start. */
+const addressNow = () => address + (player.isPlaced ? placeAddress(session.snapshot.place, shown, session.facts.rate) : "");
 
 async function updateScene() {
   const {text} = session;
@@ -249,6 +250,11 @@ byId("settings").addEventListener("submit", event => event.preventDefault());
 document.addEventListener("click", event => {
   if (!targetOf(event).closest("#menu")) byId("menu").open = false;
 });
+byId("menu").addEventListener("keydown", event => {
+  if (event.key !== "Escape") return;
+  byId("menu").open = false;
+  byId("menu").querySelector("summary").focus();
+});
 
 /** The button over the picture, until the film has been played. */
 const invitation = byId("invitation");
@@ -260,9 +266,8 @@ function invite(place) {
   if (place.frame !== 0 || player.frames === 0) return;
   invitation.hidden = false;
   if (isStill || options.get("autoplay") === "0") return;
-  // Skips the hold at the start, which is for lecturers. A page that nobody sees waits.
-  const from = approximate(session.facts.keys["time.hold-start"]?.[0] ?? "0");
-  requestAnimationFrame(() => player.play({isSilent: true, from}));
+  // A page that nobody sees waits.
+  requestAnimationFrame(() => player.play({isSilent: true}));
 }
 
 /** @returns text and place of the address; null if it has no scene. */

@@ -1,7 +1,7 @@
 // Time: the film runs, or goes from frame to frame and from collision to collision.
 // In: what is shown, buttons, keys. Out: places to show.
 
-import {all, byId, sayIn} from "./dom.js";
+import {all, approximate, byId, sayIn} from "./dom.js";
 import {SoundPlayer} from "./sound.js";
 
 const seconds = () => performance.now() / 1000;
@@ -11,6 +11,8 @@ export class Player {
   #sound = new SoundPlayer();
   #isSoundOn = false;
   #isPlaying = false;
+  /** Whether somebody has chosen the place that is shown. */
+  isPlaced = true;
   /** Seconds of the film in a second. */
   #speed = 1;
   /** What is shown, as the program says. */
@@ -86,7 +88,11 @@ export class Player {
     this.slider.disabled = !hasFilm;
     for (const name of ["play", "start", "end", "previous-frame", "next-frame"]) byId(name).disabled = !hasFilm;
     for (const name of ["previous-collision", "next-collision"]) byId(name).disabled = facts.kind !== "scene";
-    byId("turn").disabled = byId("turn-in-more").disabled = !facts.hasTurn;
+    for (const name of ["turn", "turn-in-more"]) {
+      byId(name).disabled = !facts.hasTurn;
+      byId(name).title = facts.hasTurn ? "The turn, where the blocks are nearest to the wall and collisions are densest"
+        : "Only two blocks beside a wall have a turn.";
+    }
     if (this.#isPlaying && hasFilm) this.#goOnInAnotherFilm();
     else if (this.#isPlaying) this.pause();
   }
@@ -102,10 +108,12 @@ export class Player {
     else this.play();
   }
 
-  /** `from` is a second of the film, where it begins if it stands at its start. */
-  async play({isSilent = !this.#isSoundOn, from = 0} = {}) {
+  /** From its start without the hold there, which is for lecturers. */
+  async play({isSilent = !this.#isSoundOn} = {}) {
     if (this.frames === 0) return;
-    const second = this.frame === 0 || this.frame >= this.frames - 1 ? from : this.frame / this.#rate;
+    const isAtEnd = this.frame === 0 || this.frame >= this.frames - 1;
+    const second = isAtEnd ? approximate(this.#session.facts.keys["time.hold-start"]?.[0] ?? "0") : this.frame / this.#rate;
+    this.isPlaced = false;
     this.#setPlaying(true);
     this.#sound.stop();
     clearTimeout(this.#restart);
@@ -155,6 +163,7 @@ export class Player {
     const frame = Math.floor(this.#second * this.#rate);
     if (frame >= this.frames) {
       this.goTo(this.frames - 1);
+      this.isPlaced = false;
       return;
     }
     if (frame >= 0 && frame !== this.frame && !this.#session.isBusy) this.#session.show({frame});
@@ -165,6 +174,7 @@ export class Player {
     this.#sound.stop();
     clearTimeout(this.#restart);
     this.#playback = null;
+    this.isPlaced = true;
     const wasPlaying = this.#isPlaying;
     this.#setPlaying(false);
     if (wasPlaying) this.onPause();

@@ -3,6 +3,7 @@
 
 import {all, byId, element, sayIn} from "./dom.js";
 import {Failure, Program, Refusal, STOPPED} from "./program.js";
+import {encodeSoundtrack} from "./soundtrack.js";
 
 const MEDIA_TYPES = {png: "image/png", svg: "image/svg+xml", pdf: "application/pdf",
   mp4: "video/mp4", wav: "audio/wav"};
@@ -14,26 +15,48 @@ class FilmMaking {
   #workers = [];
 
   /** Tells `onProgress` the fraction that is done. @param source  text and settings of the scene */
-  async make({text, settings}, extension, {seconds, onProgress}) {
-    const name = `film.${extension}`;
-    const isSound = extension === "wav";
+  async makeSound(source, {onProgress}) {
+    const worker = await this.#open(source);
+    worker.onProgress = onProgress;
+    return (await worker.call("render", {name: "film.wav", number: 1, count: 0})).bytes;
+  }
+
+  /** The same, with pictures.
+   * @returns bytes; and whether they lack sound that they should have */
+  async make(source, {seconds, hasSound, onProgress}) {
+    const name = "film.mp4";
     // Shards are cut at whole seconds.
     const most = Math.min(navigator.hardwareConcurrency || 2, MOST_WORKERS, Math.ceil(seconds));
-    const count = isSound ? 1 : Math.max(1, most);
-    const progress = new Array(count).fill(0);
-    this.#workers = progress.map(() => new Program());
-    // The page has no encoder of AAC.
-    if (!isSound) settings += "\nsound.on=false";
-    const shards = await Promise.all(this.#workers.map(async (worker, i) => {
+    const progress = new Array(Math.max(1, most)).fill(0);
+    const rendering = progress.map(async (_, i) => {
+      // Its sound is added when they are joined.
+      const worker = await this.#open({...source, settings: `${source.settings}\nsound.on=false`});
       worker.onProgress = done => {
         progress[i] = done;
-        onProgress(progress.reduce((sum, one) => sum + one, 0) / count);
+        onProgress(progress.reduce((sum, one) => sum + one, 0) / progress.length);
       };
-      await worker.call("open", {text, settings});
-      return worker.call("render", {name, number: i + 1, count});
-    }));
-    if (count === 1) return shards[0].bytes;
-    return this.#workers[0].call("join", {name, shards}, shards.map(shard => shard.bytes.buffer));
+      return worker.call("render", {name, number: i + 1, count: progress.length});
+    });
+    const [sound, ...shards] = await Promise.all([hasSound ? this.#encodeSound(source) : null, ...rendering]);
+    const bytes = await this.#workers[0].call("join", {name, shards, sound},
+      shards.map(shard => shard.bytes.buffer));
+    return {bytes, lacksSound: hasSound && !sound};
+  }
+
+  /** A worker in which this scene is open. */
+  async #open(source) {
+    const worker = new Program();
+    this.#workers.push(worker);
+    await worker.call("open", source);
+    return worker;
+  }
+
+  async #encodeSound(source) {
+    const worker = await this.#open(source);
+    await worker.call("openSound");
+    const sound = await encodeSoundtrack((first, count) => worker.call("readSound", {first, count}));
+    worker.stop();
+    return sound;
   }
 
   stop() {
@@ -54,7 +77,7 @@ export class Saving {
     this.#session = session;
     for (const button of this.#buttons) {
       button.addEventListener("click", () => {
-        pause();
+        if (!isFilm(button.dataset.save)) pause();
         this.#save(button.dataset.save);
       });
     }
@@ -67,8 +90,10 @@ export class Saving {
     sayIn(byId("saving-problem"), "");
     byId("saved").hidden = true;
     try {
-      const bytes = isFilm(extension) ? await this.#makeFilm(extension) : await this.#session.save(`/picture.${extension}`);
+      const {bytes, lacksSound = false} = isFilm(extension) ? await this.#makeFilm(extension)
+        : {bytes: await this.#session.save(`/picture.${extension}`)};
       this.#download(bytes, name, extension);
+      if (lacksSound) byId("saved").append(" This browser encodes no sound: the film is silent.");
     } catch (error) {
       if (!(error instanceof Failure && error.message === STOPPED)) {
         sayIn(byId("saving-problem"), error.message);
@@ -78,14 +103,16 @@ export class Saving {
 
   /** @throws Failure with STOPPED if it is cancelled. */
   async #makeFilm(extension) {
-    const {frames, rate, filmProblem} = this.#session.facts;
+    const {frames, rate, filmProblem, keys} = this.#session.facts;
     if (frames === null) throw new Refusal([{origin: "", key: "", reason: filmProblem}]);
     const making = new FilmMaking();
     this.#showMaking(making, `Rendering ${frames.toLocaleString("en")} frames`);
     try {
       const onProgress = done => byId("saving-progress").value = done;
-      return await making.make(this.#session.source, extension,
-        {seconds: frames * rate[1] / rate[0], onProgress});
+      const {source} = this.#session;
+      if (extension === "wav") return {bytes: await making.makeSound(source, {onProgress})};
+      const hasSound = keys["sound.on"][0] === "true";
+      return await making.make(source, {seconds: frames * rate[1] / rate[0], hasSound, onProgress});
     } finally {
       making.stop();
       const wasOnCancel = document.activeElement === byId("cancel");

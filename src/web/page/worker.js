@@ -26,7 +26,7 @@ function argument(value) {
 /** Calls a function that answers in text. */
 function ask(name, ...given) {
   const values = given.map(argument);
-  const types = values.map(value => typeof value);
+  const types = values.map(value => ArrayBuffer.isView(value) ? "array" : typeof value);
   const isDone = program.ccall(name, "boolean", types, values);
   const answer = program.ccall("live_answer", "string", [], []);
   if (!isDone) throw new Refusal(JSON.parse(answer).problems);
@@ -104,13 +104,18 @@ const tasks = {
     ask("live_save", name);
     return readAndRemove(name);
   },
-  /** @param number, count  the shard; count is 1 for the whole film */
+  /** @param number, count  the shard; count is 0 for the whole film */
   render({name, number, count}) {
     const file = ask("live_render", name, number, count);
     return {file, bytes: readAndRemove(file)};
   },
-  /** @param shards  {file, bytes} of all, as render() returns them */
-  join({name, shards}) {
+  /** @param shards  {file, bytes} of all, as render() returns them
+   * @param sound  as encodeSoundtrack() returns it */
+  join({name, shards, sound}) {
+    if (sound) {
+      ask("live_begin_sound", sound.codec, sound.config, sound.config.length, sound.packetSamples, sound.delay);
+      for (const packet of sound.packets) ask("live_add_sound", packet, packet.length);
+    }
     for (const {file, bytes} of shards) program.FS.writeFile(file, bytes);
     const whole = readAndRemove(ask("live_join", name, shards.length));
     for (const {file} of shards) program.FS.unlink(file);

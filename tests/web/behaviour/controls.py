@@ -14,7 +14,7 @@ const nameOf = input => `${input.closest("[data-key]").dataset.key} ${input.valu
 
 /** A slider stands at one of its steps. */
 const isKept = (input, value) => input.type === "checkbox" ? input.checked === value
-  : Math.abs(Number(input.value) - Number(value)) <= Number(input.step);
+  : Math.abs(Number(input.value) - Number(value)) <= 1.001 * Number(input.step);
 
 /** What is refused when controls of this kind are used; each begins with the scene as it is. */
 check.refusals = async (scene, kind, values) => {

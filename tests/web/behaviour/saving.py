@@ -6,7 +6,7 @@ In: a Check. Out: its faults.
 import base64
 
 # Takes some seconds.
-LONG = 'view.theme = "lecture"\ntime.to = 240\nshow.panels = ["time"]\n'
+LONG = 'view.theme = "lecture"\ntime.to = 240\nshow.panels = ["time"]\nsound.on = true\n'
 SHORT = 'digits = 2\nview.size = "640x360"\n'
 SEEN = "!document.getElementById('saving').hidden"
 SHARE = "document.getElementById('saving-progress').value"
