@@ -156,8 +156,8 @@ TEST(DiscContacts, RackBreaksSymmetrically) {
       }
     }
     EXPECT_NEAR(momentum, 1, 1e-13);
-    if (restitution == 1) EXPECT_NEAR(energy_of(system, run), 1, 1e-13);
-    if (restitution != 1) EXPECT_LT(energy_of(system, run), 1);
+    const double energy = energy_of(system, run);
+    EXPECT_TRUE(restitution == 1 ? std::abs(energy - 1) < 1e-13 : energy < 1) << energy;
   }
 }
 
@@ -185,8 +185,8 @@ TEST(DiscContacts, ClustersKeepWhatCollisionsKeep) {
       run.velocities[step->second] = step->second_after.velocity;
     }
     const double after = energy_of(system, run);
-    if (trial % 2 == 0) EXPECT_NEAR(after, before, 1e-12) << trial;
     EXPECT_LE(after, before + 1e-12) << trial;
+    EXPECT_GE(after, trial % 2 == 0 ? before - 1e-12 : 0) << trial;
     for (std::size_t i = 0; i < system.bodies.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const double x =
