@@ -258,6 +258,17 @@ void check_dimensions(const System& system, SceneProblems& problems) {
   }
 }
 
+/// On a line the nearest wall of a side is the only one that matters, and must stay the nearest.
+void check_sides(const System& system, SceneProblems& problems) {
+  for (const int side : {1, -1}) {
+    const auto is_there = [&](const Wall& wall) { return sgn(wall.normal[0]) == side; };
+    const auto moves_there = [&](const Wall& wall) { return is_there(wall) && is_moving(wall); };
+    if (std::ranges::count_if(system.walls, is_there) < 2) continue;
+    problems.require(std::ranges::none_of(system.walls, moves_there), "wall",
+                     "moves, and another one is on the same side; leave one of them out");
+  }
+}
+
 void check_restitution(const System& system, SceneProblems& problems) {
   const auto check = [&](const std::string& key, const Rational& value) {
     problems.require(value >= 0 && value <= 1, key,
@@ -289,6 +300,7 @@ std::vector<Problem> problems_of(const System& system) {
   check_dimensions(system, problems);
   const bool is_pair = two_blocks_of(system).has_value();
   for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, is_pair, problems);
+  if (system.dimensions == 1) check_sides(system, problems);
   check_restitution(system, problems);
   problems.require(system.dimensions == 2 || !are_at_once(system), "contacts",
                    "= at-once: is for discs; blocks collide in order");
