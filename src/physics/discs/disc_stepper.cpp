@@ -44,7 +44,9 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
   if (is_certain()) {
     const double start = is_disc(partner) ? std::max(own.time, discs_[partner].time) : own.time;
     proposal.possible = earliest(disc, partner);
-    const bool may_be_before = proposal.possible < start && !are_independent(own.last, partner);
+    const bool may_be_before =
+        proposal.possible < start &&
+        !(are_independent(own.last, partner) && meeting_error(disc, partner, proposal.time));
     proposal.is_doubt = proposal.time == kNever || may_be_before;
     if (proposal.is_doubt) proposal.time = proposal.possible;
   }
@@ -102,7 +104,9 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
 /// @return whether it becomes the rival of the disc's plan, and may be before it
 bool Stepper::note_rival(std::uint32_t disc, Plan& plan, const Plan& loser) const {
   if (loser.possible >= plan.rival.possible || loser.partner == plan.partner) return false;
-  if (are_independent(loser.partner, plan.partner) && !loser.is_doubt) return false;
+  // A plan that comes later forgets this one, so the doubt must be short.
+  const bool is_soon = top_speed_ * (plan.time - loser.possible) < 0x1p-20 * discs_[disc].radius;
+  if (is_soon && are_independent(loser.partner, plan.partner) && !loser.is_doubt) return false;
   if (are_joint(disc, plan, loser)) return false;
   plan.rival = {loser.possible, loser.partner, loser.meetings};
   return has_rival(plan);
