@@ -58,6 +58,13 @@ class SceneProblems {
   std::vector<Problem> list_;
 };
 
+/// What messages call a body.
+std::string name_of(const System& system, std::size_t body);
+/// Of a value of it.
+std::string key_of(const System& system, std::size_t body, const char* value);
+/// As in "the left wall", or "the wall".
+std::string noun_of(const Wall& wall);
+
 /// @throws SceneError that lists the problems, if there are any.
 void require_valid(const std::vector<Problem>& problems);
 
