@@ -44,10 +44,17 @@ void require_certain(const Scene& scene, const Log& log, const std::optional<Rat
 std::optional<std::string> tie_note(const Log& log, const Integer& last) {
   const std::optional<Integer> tie = log.pair() ? std::nullopt : log.first_tie(last);
   if (!tie) return std::nullopt;
+  const double time = log.collision_time(*tie).hi;
+  if (are_at_once(log.system())) {
+    return fmt::format(
+        "at t = {} bodies that touch collide at once; one after the other, as by contacts = "
+        "\"in-order\", they may part otherwise",
+        time);
+  }
   return fmt::format(
       "at t = {} a body has several collisions at once: those of movable bodies come first, in the "
       "order of the file; another order may end otherwise",
-      log.collision_time(*tie).hi);
+      time);
 }
 
 std::vector<std::string> convention_notes(const Script& script) {

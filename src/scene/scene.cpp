@@ -195,15 +195,18 @@ void check_fits(const Scene& scene, SceneProblems& problems) {
 
 /// What pictures say where the energy is kept, by collisions and from outside.
 void check_energy(const Scene& scene, SceneProblems& problems) {
-  if (is_elastic(scene.system) && !is_driven(scene.system)) return;
-  constexpr const char* kReason =
-      "has '{}', which needs elastic collisions and walls that rest; leave it out";
+  const bool is_kept = is_elastic(scene.system);
+  if (is_kept && !is_driven(scene.system)) return;
+  const auto refuse = [&](const char* key, const std::string& name) {
+    problems.add_item(key, name, "has '{}', which needs {}", name,
+                      is_kept ? "walls that rest; leave it out"
+                              : "elastic collisions; leave it out, or leave out the restitution");
+  };
   for (const Panel panel : scene.show.panels) {
     if (panel == Panel::time || panel == Panel::count || panel == Panel::separation) continue;
-    problems.add_item("show.panels", exact_text(panel), kReason, exact_text(panel));
+    refuse("show.panels", exact_text(panel));
   }
-  const std::string digits = exact_text(Overlay::digits);
-  if (scene.show.has(Overlay::digits)) problems.add_item("show.overlays", digits, kReason, digits);
+  if (scene.show.has(Overlay::digits)) refuse("show.overlays", exact_text(Overlay::digits));
 }
 
 void check_golden(const Golden& golden, SceneProblems& problems) {

@@ -33,11 +33,11 @@ TEST_F(BodiesFile, KeysOfBlocksAreNotForBodies) {
     expect_problem(line + body,
                    "1: " + key + ": this scene has [[body]] instead of blue, red and the wall");
   }
-  // A diagram that needs elastic collisions is not what is wrong here.
   const std::string bodies = body + "velocity = 1\n[[body]]\nposition = 3\n";
   for (const std::string key : {"restitution", "blocks.restitution", "wall.restitution"}) {
     expect_problem(key + " = 0.5\nshow.panels = ['speeds']\n" + bodies,
-                   "1: " + key + " is less than 1" + kNeedsPair);
+                   "2: show.panels has 'speeds', which needs elastic collisions; leave it out, or "
+                   "leave out the restitution");
   }
 }
 
@@ -134,7 +134,7 @@ TEST(Bodies, HaveTheProblemsThatNoFileCanWrite) {
   discs.dimensions = 2;
   discs.bodies[1].position = {Rational(16, 5), 0};  // touches blue as a block, overlaps as a disc
   ASSERT_FALSE(problems_of(discs).empty());
-  EXPECT_EQ(problems_of(discs)[0].reason, "= [16/5, 0]: overlaps blue");
+  EXPECT_EQ(problems_of(discs)[0].reason, "= [16/5, 0]: overlaps blue by 0.8");
   System fixed = article_system(3);
   fixed.bodies[0].mass = std::nullopt;
   EXPECT_FALSE(has_short_names(fixed));

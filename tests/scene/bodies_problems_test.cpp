@@ -67,7 +67,7 @@ TEST_F(BodiesFile, ManyProblemsAreCounted) {
   for (int i = 0; i < 300; ++i) text += "[[body]]\nposition = [0, 0]\n";
   const std::vector<std::string> found = problems(text);
   ASSERT_EQ(found.size(), UsageError::kMostProblems + 1);
-  EXPECT_EQ(found.front(), path_ + ":3: body 2.position = [0, 0]: overlaps body 1");
+  EXPECT_EQ(found.front(), path_ + ":3: body 2.position = [0, 0]: overlaps body 1 by 2");
   EXPECT_EQ(found.back(), "and 199 more problems");
 }
 
@@ -77,18 +77,18 @@ TEST_F(BodiesFile, BodiesHaveRoom) {
   expect_problem(blocks + "-0.5\n", "1: body 1.position = 0: overlaps body 2 by 1/2");
   EXPECT_TRUE(problems(blocks + "1\n").empty()) << "they may touch";
   const std::string discs = "[[body]]\nposition = [0, 0]\n[[body]]\nposition = ";
-  expect_problem(discs + "[1.2, 1.59]\n", "3: body 2.position = [6/5, 159/100]: overlaps body 1");
+  expect_problem(discs + "[1.2, 1.59]\n", "3: body 2.position = [6/5, 159/100]: overlaps body 1 by 0.00801");
   EXPECT_TRUE(problems(discs + "[1.2, 1.6]\n").empty()) << "they touch";
   const std::string box = "[time]\nto = 1\n[box]\nx = [0, 4]\ny = [0, 4]\n[[body]]\nposition = ";
-  expect_problem(box + "[0.9, 2]\n", "6: body 1.position = [9/10, 2]: is beyond the left wall");
-  expect_problem(box + "[2, 3.1]\n", "6: body 1.position = [2, 31/10]: is beyond the upper wall");
+  expect_problem(box + "[0.9, 2]\n", "6: body 1.position = [9/10, 2]: reaches 0.1 beyond the left wall");
+  expect_problem(box + "[2, 3.1]\n", "6: body 1.position = [2, 31/10]: reaches 0.1 beyond the upper wall");
   EXPECT_TRUE(problems(box + "[1, 3]\n").empty()) << "it touches two walls";
   const std::string line = "[time]\nto = 1\n[box]\nx = [0, 4]\n[[body]]\nposition = ";
   expect_problem(line + "0\n", "5: body 1.position = 0: reaches 1/2 beyond the left wall");
   expect_problem(line + "3.75\n", "5: body 1.position = 15/4: reaches 1/4 beyond the right wall");
   const std::string wedge = "[[wall]]\npoint = [0, 0]\nnormal = [3, 4]\n[[body]]\nposition = ";
   expect_problem(wedge + "[0.6, 0.79]\n",
-                 "4: body 1.position = [3/5, 79/100]: is beyond the slanted-1 wall");
+                 "4: body 1.position = [3/5, 79/100]: reaches 0.008 beyond the slanted-1 wall");
   EXPECT_TRUE(problems(wedge + "[0.6, 0.8]\n").empty()) << "it touches";
 }
 
@@ -97,8 +97,7 @@ TEST_F(BodiesFile, SomethingCanMove) {
   expect_problem(fixed, "1: body all have infinite mass: nothing can move");
   expect_problem(fixed + "[[body]]\nmass = 'inf'\nposition = 3\n",
                  "1: body all have infinite mass: nothing can move");
-  expect_problem(fixed + "velocity = 1\n[[body]]\nposition = 3\n",
-                 "1: body 1.velocity = [1, 0]: a body of infinite mass must be at rest");
+  EXPECT_TRUE(problems(fixed + "velocity = 1\n[[body]]\nposition = 3\n").empty()) << "it moves";
 }
 
 TEST_F(BodiesFile, BodiesAreTables) {
@@ -160,9 +159,6 @@ TEST_F(BodiesFile, AWallThatRecoilsIsChecked) {
     EXPECT_TRUE(found.front().starts_with(path_ + ":2: wall.mass = ")) << found.front();
     EXPECT_TRUE(contains(found.front(), "must be greater than 0"));
   }
-  expect_problem(wall + "restitution = 0.5\n",
-                 "3: wall.restitution is less than 1, which needs two blocks beside one wall or "
-                 "fixed block, and no more; leave it out");
   // In the words of the file, which has no bodies.
   expect_problem(wall + "[blue]\nmass = 0\n", "4: blue.mass = 0: must be greater than 0");
   const auto overlap = problems(wall + "[red]\nposition = 2.5\n");
