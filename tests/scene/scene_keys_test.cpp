@@ -22,6 +22,7 @@ using Description = std::vector<std::pair<std::string, std::string>>;
 const std::map<std::string, Values> kOther = {
     {"base", {"2"}},
     {"wall.face", {"-1/3"}},
+    {"contacts", {"in-order"}},
     {"blue.mass", {"2/3"}},
     {"blue.position", {"9/4"}},
     {"blue.velocity", {"1/10"}},
