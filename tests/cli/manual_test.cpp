@@ -60,7 +60,7 @@ TEST_F(ManualTest, ZshAndFishReadTheirs) {
     const std::string text = output_of({"manual", program});
     EXPECT_TRUE(contains(text, "slow-motion"));
     EXPECT_TRUE(contains(text, "chalkboard dark"));
-    EXPECT_TRUE(contains(text, "slow-turn storyboard"));
+    EXPECT_TRUE(contains(text, "slow-turn stack storyboard"));
     write("completion", text);
     if (is_there(program)) shell(program + " -n completion");
   }

@@ -156,7 +156,8 @@ struct StageErrors {
       const double turn = touch.normal_error + 8 * kUnit;
       turned2 +=
           turn * turn * (inverse_mass(system, touch.first) + inverse_mass(system, touch.second));
-      given2 += std::pow(given_error(system, touch), 2);
+      const double error = given_error(system, touch);
+      given2 += error * error;
       closing2 += stage.closing[i] * stage.closing[i];
     }
     turned = std::sqrt(turned2);
@@ -225,7 +226,8 @@ bool widen(DiscSystem& system, const Stage& stage) {
   const std::vector<std::uint32_t> moved = moved_bodies(system, stage);
   double before2 = 0;
   for (const std::uint32_t body : moved) {
-    before2 += system.masses[body] * std::pow(system.bounds[body].velocity, 2);
+    const double error = system.bounds[body].velocity;
+    before2 += system.masses[body] * error * error;
   }
   const double before = std::sqrt(before2);
   const StageErrors errors(system, stage);
