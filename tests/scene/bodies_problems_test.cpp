@@ -77,11 +77,14 @@ TEST_F(BodiesFile, BodiesHaveRoom) {
   expect_problem(blocks + "-0.5\n", "1: body 1.position = 0: overlaps body 2 by 1/2");
   EXPECT_TRUE(problems(blocks + "1\n").empty()) << "they may touch";
   const std::string discs = "[[body]]\nposition = [0, 0]\n[[body]]\nposition = ";
-  expect_problem(discs + "[1.2, 1.59]\n", "3: body 2.position = [6/5, 159/100]: overlaps body 1 by 0.00801");
+  expect_problem(discs + "[1.2, 1.59]\n",
+                 "3: body 2.position = [6/5, 159/100]: overlaps body 1 by 0.00801");
   EXPECT_TRUE(problems(discs + "[1.2, 1.6]\n").empty()) << "they touch";
   const std::string box = "[time]\nto = 1\n[box]\nx = [0, 4]\ny = [0, 4]\n[[body]]\nposition = ";
-  expect_problem(box + "[0.9, 2]\n", "6: body 1.position = [9/10, 2]: reaches 0.1 beyond the left wall");
-  expect_problem(box + "[2, 3.1]\n", "6: body 1.position = [2, 31/10]: reaches 0.1 beyond the upper wall");
+  expect_problem(box + "[0.9, 2]\n",
+                 "6: body 1.position = [9/10, 2]: reaches 0.1 beyond the left wall");
+  expect_problem(box + "[2, 3.1]\n",
+                 "6: body 1.position = [2, 31/10]: reaches 0.1 beyond the upper wall");
   EXPECT_TRUE(problems(box + "[1, 3]\n").empty()) << "it touches two walls";
   const std::string line = "[time]\nto = 1\n[box]\nx = [0, 4]\n[[body]]\nposition = ";
   expect_problem(line + "0\n", "5: body 1.position = 0: reaches 1/2 beyond the left wall");

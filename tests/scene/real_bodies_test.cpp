@@ -12,7 +12,9 @@
 namespace piblocks {
 namespace {
 
-Scene scene_of(const std::string& text) { return std::get<Scene>(testing_support::script_of(text)); }
+Scene scene_of(const std::string& text) {
+  return std::get<Scene>(testing_support::script_of(text));
+}
 
 std::vector<std::string> problems_in(const std::string& text) {
   try {
