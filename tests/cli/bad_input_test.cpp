@@ -40,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadInput{{"frobnicate"},
                  "unknown command 'frobnicate': use one of render, join, still, sheet, page, "
-                 "log, state, count, need, scenes, compare, golden, info, manual; see 'piblocks "
+                 "log, state, count, min-restitution, scenes, compare, golden, info, manual; see "
+                 "'piblocks "
                  "--help'"},
         BadInput{{"redner"}, "unknown command 'redner'; did you mean 'render'? use one of"},
         BadInput{{"help", "cuont"}, "unknown command 'cuont'; did you mean 'count'?"},
