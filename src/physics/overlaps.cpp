@@ -24,12 +24,16 @@ double shortfall(const Rational& reach, const Rational& square) {
   return to_double(reach) * to_double(Rational(1 - share)) / (1 + std::sqrt(to_double(share)));
 }
 
-/// How far a body may overlap what it touches: a few roundings of its coordinates. Numbers rounded
-/// to doubles, or to as many decimals, cannot say touching more exactly.
+/// How far a body may overlap what it touches, as a share of its coordinates: a few roundings.
+/// Numbers rounded to doubles, or to as many decimals, cannot say touching more exactly.
+constexpr double kTolerance = 0x1p-50;
+
 Rational tolerance_of(const Body& body) {
-  return (abs(body.position[0]) + abs(body.position[1]) + body.size) >> 50;
+  return Rational(kTolerance) * (abs(body.position[0]) + abs(body.position[1]) + body.size);
 }
-Rational tolerance_of(const Wall& wall) { return (abs(wall.point[0]) + abs(wall.point[1])) >> 50; }
+Rational tolerance_of(const Wall& wall) {
+  return Rational(kTolerance) * (abs(wall.point[0]) + abs(wall.point[1]));
+}
 Rational tolerated_size(const Body& body, const Rational& tolerance) {
   return std::max(Rational(body.size - tolerance), Rational(body.size / 2));
 }

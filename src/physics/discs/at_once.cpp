@@ -135,7 +135,7 @@ std::vector<std::uint32_t> moved_bodies(const DiscSystem& system, const Stage& s
     }
   }
   std::ranges::sort(bodies);
-  bodies.erase(std::ranges::unique(bodies).begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   return bodies;
 }
 
