@@ -78,7 +78,7 @@ TEST_F(BodiesFile, BodiesHaveRoom) {
   EXPECT_TRUE(problems(blocks + "1\n").empty()) << "they may touch";
   const std::string discs = "[[body]]\nposition = [0, 0]\n[[body]]\nposition = ";
   expect_problem(discs + "[1.2, 1.59]\n",
-                 "3: body 2.position = [6/5, 159/100]: overlaps body 1 by 0.00801");
+                 "3: body 2.position = [6/5, 159/100]: overlaps body 1 by 0.00799");
   EXPECT_TRUE(problems(discs + "[1.2, 1.6]\n").empty()) << "they touch";
   const std::string box = "[time]\nto = 1\n[box]\nx = [0, 4]\ny = [0, 4]\n[[body]]\nposition = ";
   expect_problem(box + "[0.9, 2]\n",

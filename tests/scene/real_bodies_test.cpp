@@ -64,8 +64,8 @@ TEST(RealBodies, AreWrittenAsTheyWereRead) {
            "wall.face = \"-inf\"\n", "wall.velocity = 0.25\ntime.to = 3\n",
            "wall.velocity = 0.25\nwall.mass = 7\ntime.to = 3\n",
            "box.x = [0, \"inf\"]\nbox.x-velocity = [\"1/3\", 0]\n" + kDisc + "restitution = 0.5\n",
-           "box.x = [0, 9]\n[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\nvelocity = [0, 1]\n" +
-               kDisc}) {
+           "box.x = [0, 9]\n" + kDisc +
+               "[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\nvelocity = [0, 1]\n"}) {
     const Scene scene = scene_of(text);
     EXPECT_EQ(describe(scene_of(scene_toml(scene))), describe(scene)) << text;
   }
