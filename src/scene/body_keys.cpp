@@ -98,6 +98,7 @@ constexpr auto kWallKeys = std::to_array<WallKey>({
 
 std::vector<std::string> names_of(const auto& keys) {
   std::vector<std::string> names;
+  names.reserve(keys.size());
   for (const auto& key : keys) names.emplace_back(key.name);
   return names;
 }

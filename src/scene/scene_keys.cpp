@@ -289,12 +289,12 @@ const SceneKey* find_scene_key(std::string_view name) {
 }
 
 std::span<const KeysOfOneValue> keys_of_one_value() {
-  static const std::array<KeysOfOneValue, 4> kAlike = {
+  static const std::array<KeysOfOneValue, 4> alike = {
       {{"the speed", {"time.speed", "time.duration"}},
        {"the mass of red", {"digits", "mass-ratio", "red.mass"}},
        {"the restitution of the blocks", {"restitution", "blocks.restitution"}},
        {"the restitution of the wall", {"restitution", "wall.restitution"}}}};
-  return kAlike;
+  return alike;
 }
 
 bool set_same_value(std::string_view one, std::string_view other) {

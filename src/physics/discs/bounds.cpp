@@ -120,7 +120,8 @@ struct Approach {
     const double rounding =
         4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
     b = (bound.velocity + size_of(v) * wall.normal_error + rounding + speed_error(wall)) * kUp;
-    fastest = b + closing_speed(wall, disc);
+    const double closing = closing_speed(wall, disc);
+    fastest = b + closing;
     gap = gap_to(wall, disc, disc.time) - e;
   }
 

@@ -148,17 +148,17 @@ void Stepper::enqueue(std::uint32_t disc) {
   queue_.set(disc, plan.crossing <= next.time ? EventKey{plan.crossing, 0} : next);
 }
 
-void Stepper::cross(std::uint32_t disc) {
-  cells_.cross(disc, [&](std::uint32_t other) {
-    if (system_.is_movable(disc)) {
-      plan_meeting(disc, other);
-    } else if (system_.is_movable(other)) {
-      plan_meeting(other, disc);
-      enqueue(other);
+void Stepper::cross(std::uint32_t body) {
+  cells_.cross(body, [&](std::uint32_t near) {
+    if (system_.is_movable(body)) {
+      plan_meeting(body, near);
+    } else if (system_.is_movable(near)) {
+      plan_meeting(near, body);
+      enqueue(near);
     }
   });
-  plans_[disc].crossing = cells_.crossing_time(disc);
-  enqueue(disc);
+  plans_[body].crossing = cells_.crossing_time(body);
+  enqueue(body);
 }
 
 // What happens.
@@ -300,10 +300,10 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
 /// Before which time a disc meets nobody, except one.
 double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
   double soonest = kNever;
-  const auto look_at = [&](std::uint32_t other) {
-    if (other == body || other == excepted || have_just_met(body, other)) return;
-    if (are_independent(other, excepted)) return;
-    soonest = std::min(soonest, earliest(body, other));
+  const auto look_at = [&](std::uint32_t near) {
+    if (near == body || near == excepted || have_just_met(body, near)) return;
+    if (are_independent(near, excepted)) return;
+    soonest = std::min(soonest, earliest(body, near));
   };
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
   cells_.visit_near(body, look_at);

@@ -41,10 +41,10 @@ struct Cluster {
 
 /// A body that takes part in several contacts at once, just before them.
 struct Struck {
-  std::uint32_t body;
-  double drift;  ///< bound of the error of its place
-  double velocity_error;
-  Vector velocity;
+  std::uint32_t body = 0;
+  double drift = 0;  ///< bound of the error of its place
+  double velocity_error = 0;
+  Vector velocity = {};
 };
 
 /// Each disc has one plan, its soonest. If the partner meets another disc first, the plan stays in
@@ -110,7 +110,7 @@ class Stepper final : public DiscStepper {
   bool is_stale(const Planned& planned) const;
   void doubt_graze(std::uint32_t disc);
   void enqueue(std::uint32_t disc);
-  void cross(std::uint32_t disc);
+  void cross(std::uint32_t body);
 
   SteppedCollision meet(std::uint32_t disc, std::uint32_t partner, double time);
   void collide_discs(std::uint32_t first, std::uint32_t second, double time);

@@ -88,8 +88,9 @@ Cluster Stepper::cluster_of(std::uint32_t disc, std::uint32_t partner, double ti
   }
   const auto rank = [&](const Touch& touch) { return rank_of(touch.first, touch.second); };
   std::ranges::sort(cluster.touches, {}, rank);
-  const auto repeated = std::ranges::unique(cluster.touches, {}, rank);
-  cluster.touches.erase(repeated.begin(), repeated.end());
+  const auto is_same = [&](const Touch& a, const Touch& b) { return !(rank(a) < rank(b)); };
+  const auto repeated = std::unique(cluster.touches.begin(), cluster.touches.end(), is_same);
+  cluster.touches.erase(repeated, cluster.touches.end());
   return cluster;
 }
 
