@@ -7,9 +7,12 @@ const PIECE = 24000;
 /** Pieces that may wait for the encoder. */
 const MOST_WAITING = 4;
 
+/** WebKitGTK 2.50 crashes when decoded samples are read, and without them the delay of its AAC is unknown. */
+const canMeasure = !/Linux.*AppleWebKit(?!.*Chrome)/.test(navigator.userAgent);
+
 /** Best first: older players know AAC alone in an MP4. */
 const CODECS = [
-  {codec: "mp4a.40.2", packetSamples: 1024, delay: measureDelay},
+  ...canMeasure ? [{codec: "mp4a.40.2", packetSamples: 1024, delay: measureDelay}] : [],
   // The pre-skip of its header.
   {codec: "opus", packetSamples: 960, delay: (config, header) => header[10] + 256 * header[11]},
 ];
