@@ -111,8 +111,8 @@ std::vector<Ending> endings_of(const Film& film) {
 }
 
 TEST(ShippedScenes, EndOnTheirLastCollision) {
-  // The turn alone; and a rack, of which two slow balls meet long after. All others have an end that
-  // is worth waiting for.
+  // The turn alone; and a rack, of which two slow balls meet long after. All others have an end
+  // that is worth waiting for.
   const std::set<std::string> excerpts = {"rack", "slow-turn"};
   int runs = 0;
   for (const auto& [name, file] : shipped_scenes()) {
