@@ -144,8 +144,8 @@ class Log {
   /// one; else numbers are some units in the last place off.
   virtual bool is_exact(const Integer& index) const = 0;
   /// The first collision up to `last` of a body that has another one due at the same time: TieRank
-  /// then decides what comes next. Looks only at collisions in rational numbers; nothing if there
-  /// is none.
+  /// then decides what comes next. Looks at collisions in rational numbers and at contacts at once;
+  /// nothing if there is none.
   virtual std::optional<Integer> first_tie(const Integer& last) const = 0;
   /// The time up to which rounding cannot have changed which bodies collide, or the order in which
   /// each one meets others. Nothing if this holds until `time`; without a time, if it holds for

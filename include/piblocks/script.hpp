@@ -123,6 +123,9 @@ class ScriptBuilder {
   /// reading.
   /// @param item  as the item of a Problem
   void leave_out(const std::string& key, const std::string& item);
+  /// The same in one [[part]] and in all that it compares. An empty item stands for all of the key.
+  /// @param line  of the [[part]]
+  void leave_out_of_part(std::size_t line, const std::string& key, const std::string& item);
   /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
   /// whole film only, whether it is read before or after. "body 2.mass" is the mass of the second
   /// [[body]] of the file, which must have been read. The number after the last one adds a body.

@@ -66,6 +66,9 @@ Rational restitution_of(const System& system, std::size_t first, std::size_t sec
 /// Whether all collisions keep the relative speed: all coefficients are 1.
 bool is_elastic(const System& system);
 
+/// Whether no collision moves it. @param id  as in Collision
+bool is_immovable(const System& system, std::size_t id);
+
 bool is_moving(const Wall& wall);
 /// Whether something moves that no collision moves, such as a piston. It gives or takes energy.
 bool is_driven(const System& system);

@@ -114,7 +114,9 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
     });
   }
   file.finish();
-  if (const auto note = endless_note(*log)) say("piblocks: note: {}\n", *note);
+  if (const auto collapse = log->collapse(rows.until)) {
+    say("piblocks: note: {}\n", endless_note(scene.system, *collapse));
+  }
   note_convention(scene);
   note_ties(*log, rows.last);
 }

@@ -36,7 +36,7 @@ int places_of(const LeastRestitution& need) {
   return loss == 0 ? kPlaces : static_cast<int>(kLossDigits - 1 - magnitude_of(loss).exponent);
 }
 
-void print_need(int digits, int base, TextOutput& out) {
+void print_min_restitution(int digits, int base, TextOutput& out) {
   const LeastRestitution need = least_restitution(digits, base);
   const int places = places_of(need);
   const Rational unit = power_of_ten(-places);
@@ -81,8 +81,8 @@ void define_min_restitution(Command& command) {
       return parse_int(text, kMinBase, kMaxBase);
     };
     TextOutput out;
-    print_need(*command.value("--digits", parse_digits),
-               command.value("--base", parse_base).value_or(kUsualBase), out);
+    print_min_restitution(*command.value("--digits", parse_digits),
+                          command.value("--base", parse_base).value_or(kUsualBase), out);
     out.finish();
   });
 }

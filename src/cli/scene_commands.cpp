@@ -36,10 +36,11 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
     until = to ? std::optional(time_of(*to, *log)) : log->horizon();
     count = until ? log->count_at(*until) : log->last();
   }
-  if (!log || count == infinite_count(*log)) {
-    count = count_collisions(scene.system, log ? log->horizon() : std::nullopt);
-  } else {
+  if (log) {
+    require_finite(*log, until);
     require_certain(scene, *log, until);
+  } else {
+    count = count_collisions(scene.system);
   }
   out.line(count.get_str(scene.show.base));
   out.finish();

@@ -8,8 +8,8 @@
 
 namespace piblocks {
 
-/// The address of a function in a library, or in what that needs; nullptr if it cannot be loaded,
-/// as dlerror() says. The library stays: its functions are called until the program ends.
+/// Loads a library and looks a function up in it and in the libraries it needs. Returns nullptr if
+/// either fails; dlerror() says why. The library is never unloaded.
 inline void* find_in_library(const char* file, const char* name) {
   void* const library = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
   return library == nullptr ? nullptr : ::dlsym(library, name);

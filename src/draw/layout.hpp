@@ -185,6 +185,8 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
 
 /// The sum of mass · velocity² of all movable bodies, which never changes.
 Rational twice_energy(const System& system);
+/// The largest of a film; where something is driven, of some of its instants.
+Rational most_twice_energy(const Scene& scene, const Log& log);
 /// Of all movable bodies; 0 if there is none.
 Rational heaviest_mass(const System& system);
 

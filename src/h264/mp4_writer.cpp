@@ -85,9 +85,11 @@ void check_opus(const Mp4Sound& sound) {
   const std::vector<std::uint8_t>& header = sound.config;
   const bool is_header = header.size() == kHeader_bytes &&
                          std::ranges::equal(kMagic, Bytes(header).first(kMagic.size())) &&
-                         header.back() == 0;
+                         header[9] == 2 && header.back() == 0;
   if (is_header && sound.rate_hz == 48000) return;
-  throw Error("h264: Opus of an MP4 file has no header of mapping family 0, or not 48000 Hz");
+  throw Error(
+      "h264: Opus of an MP4 file has no header of two channels in mapping family 0, or not 48000 "
+      "Hz");
 }
 
 std::optional<Mp4Sound> checked(const std::optional<Mp4Sound>& sound) {

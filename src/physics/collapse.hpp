@@ -18,15 +18,12 @@ struct StoredStep {
   Motion first_after;
   Motion second_after;
 };
-/// Places of steps, in order.
-using Numbers = std::vector<std::uint32_t>;
+/// Numbers of steps, ascending.
+using StepNumbers = std::vector<std::uint32_t>;
 
 inline double flight(const Time& from, const Time& to) {
   return (to.hi - from.hi) + (to.lo - from.lo);
 }
-
-/// @param id  as in Collision
-bool is_immovable(const System& system, std::uint32_t id);
 
 /// The share of all time in which bodies that collapse have met very often.
 inline constexpr double kCollapseWindow = 0x1p-48;
@@ -42,7 +39,7 @@ struct EndOfSteps {
 /// @param window    the time in which its bodies have met very often
 /// @param is_exact  whether the last step was in rational numbers
 std::optional<EndOfSteps> end_of_steps(const System& system, const std::vector<StoredStep>& steps,
-                                       const std::vector<Numbers>& of_body, double window,
+                                       const std::vector<StepNumbers>& of_body, double window,
                                        bool is_exact);
 
 }  // namespace piblocks

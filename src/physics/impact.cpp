@@ -46,17 +46,19 @@ double usual_impulse(const System& system) {
 /// centre of mass, so that what they are afterwards says how large the impulse was.
 double impulse_of(const System& system, const Collision& collision) {
   const auto mass = [&](std::uint32_t id) -> std::optional<double> {
-    if (id >= system.bodies.size() || !system.bodies[id].mass) return std::nullopt;
+    if (is_immovable(system, id)) return std::nullopt;
     return to_double(*system.bodies[id].mass);
   };
   std::optional<double> own = mass(collision.first);
   std::optional<double> other = mass(collision.second);
   if (restitution_of(system, collision.first, collision.second) != 1) {
-    const auto& before = own ? collision.first_before : collision.second_before;
-    const auto& after = (own ? collision.first_after : collision.second_after).velocity;
+    // The change of the heavier one may be lost in rounding.
+    const bool is_first = own && !(other && *other < *own);
+    const auto& before = is_first ? collision.first_before : collision.second_before;
+    const auto& after = (is_first ? collision.first_after : collision.second_after).velocity;
     const double x = after[0] - before[0];
     const double y = after[1] - before[1];
-    return (own ? *own : *other) * std::sqrt(x * x + y * y);
+    return (is_first ? *own : *other) * std::sqrt(x * x + y * y);
   }
   if (!own) std::swap(own, other);
   const double speed =
@@ -65,10 +67,7 @@ double impulse_of(const System& system, const Collision& collision) {
 }
 
 bool is_at_wall(const System& system, const Collision& collision) {
-  const auto is_fixed = [&](std::uint32_t id) {
-    return id >= system.bodies.size() || !system.bodies[id].mass;
-  };
-  return is_fixed(collision.first) || is_fixed(collision.second);
+  return is_immovable(system, collision.first) || is_immovable(system, collision.second);
 }
 
 }  // namespace

@@ -21,12 +21,8 @@ Motion motion_at_start(const System& system, std::size_t id) {
 }
 
 std::string noun_of(const System& system, std::size_t id) {
-  if (id < system.bodies.size()) {
-    const std::string& name = system.bodies[id].name;
-    return name.empty() ? body_key(system, id) : name;
-  }
-  const std::string& name = system.walls[id - system.bodies.size()].name;
-  return name == "wall" ? "the wall" : "the " + name + " wall";
+  const std::size_t count = system.bodies.size();
+  return id < count ? name_of(system, id) : "the " + noun_of(system.walls[id - count]);
 }
 
 namespace {

@@ -18,7 +18,7 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
   return {a[0] - b[0], a[1] - b[1]};
 }
 
-/// By how much a distance, whose square is given, is less than the reach; also if that is little.
+/// reach - sqrt(square), without cancellation.
 double shortfall(const Rational& reach, const Rational& square) {
   const Rational share = square / Rational(reach * reach);
   return to_double(reach) * to_double(Rational(1 - share)) / (1 + std::sqrt(to_double(share)));

@@ -70,9 +70,10 @@ class SteppedLog final : public Log {
         of_body_(system.bodies.size()) {}
 
   bool has(const Integer& index) const override {
-    compute_up_to(index);
+    compute([&] { return jam_ || is_complete_ || steps_.size() >= index; });
     const std::shared_lock lock(mutex_);
-    return index >= 1 && steps_.size() >= index;
+    // Also the meeting that cannot be: who asks for it is told.
+    return index >= 1 && index <= steps_.size() + (jam_ ? 1 : 0);
   }
 
   Integer last() const override {
@@ -181,7 +182,7 @@ class SteppedLog final : public Log {
     return step.first == body ? step.first_after : step.second_after;
   }
   /// @param next  the body's first step after that time
-  Motion motion_at(std::size_t body, const Time& time, Numbers::const_iterator next) const {
+  Motion motion_at(std::size_t body, const Time& time, StepNumbers::const_iterator next) const {
     Motion motion = start_[body];
     Time since;
     if (next != of_body_[body].begin()) {
@@ -207,7 +208,7 @@ class SteppedLog final : public Log {
   };
 
   std::vector<PathPoint> path(std::size_t body, const Interval& interval, std::size_t most) const {
-    const Numbers& own = of_body_[body];
+    const StepNumbers& own = of_body_[body];
     const auto begin = std::ranges::lower_bound(own, interval.first);
     const auto end = std::lower_bound(begin, own.end(), interval.last);
     const auto collisions = static_cast<std::size_t>(end - begin);
@@ -275,7 +276,7 @@ class SteppedLog final : public Log {
   void add_step() const {
     if (jam_) {
       throw SimulationError(fmt::format(
-          "bodies: {} and {} would meet at t = {:.6g}, and nothing moves them aside; end earlier",
+          "bodies: {} and {} meet at t = {:.6g}, and neither can give way; end the run earlier",
           noun_of(system(), jam_->first), noun_of(system(), jam_->second), jam_->time.hi));
     }
     const std::optional<SteppedCollision> step = stepper_->step();
@@ -360,7 +361,7 @@ class SteppedLog final : public Log {
   mutable bool is_complete_ = false;
   mutable std::vector<StoredStep> steps_;
   mutable std::vector<Rational> exact_times_;  // of the first steps
-  mutable std::vector<Numbers> of_body_;       // numbers of its steps
+  mutable std::vector<StepNumbers> of_body_;   // numbers of its steps
   mutable std::optional<Integer> first_tie_;
   mutable std::optional<double> certain_until_;
   mutable std::optional<Collapse> collapse_;

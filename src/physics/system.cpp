@@ -43,6 +43,8 @@ void check_dimensions(const System& system, SceneProblems& problems) {
   }
   for (std::size_t i = 0; i < system.walls.size(); ++i) {
     const Wall& wall = system.walls[i];
+    problems.require_finite(fmt::format("wall {}.velocity", i + 1),
+                            std::max(abs(wall.velocity[0]), abs(wall.velocity[1])));
     const bool is_short = has_short_names(system);
     problems.require_finite(is_short ? "wall.face" : fmt::format("wall {}.point", i + 1),
                             std::max(abs(wall.point[0]), abs(wall.point[1])));
@@ -176,8 +178,7 @@ bool has_short_names(const System& system) {
 
 Rational restitution_of(const System& system, std::size_t first, std::size_t second) {
   const std::size_t count = system.bodies.size();
-  const auto is_movable = [&](std::size_t id) { return id < count && system.bodies[id].mass; };
-  const bool has_immovable = !is_movable(first) || !is_movable(second);
+  const bool has_immovable = is_immovable(system, first) || is_immovable(system, second);
   const Rational& usual = has_immovable ? system.wall_restitution : system.restitution;
   const auto own = [&](std::size_t id) -> const Rational& {
     const auto& value =
@@ -196,6 +197,10 @@ bool is_elastic(const System& system) {
   const auto keeps = [](const auto& one) { return !one.restitution || *one.restitution == 1; };
   return system.restitution == 1 && system.wall_restitution == 1 &&
          std::ranges::all_of(system.bodies, keeps) && std::ranges::all_of(system.walls, keeps);
+}
+
+bool is_immovable(const System& system, std::size_t id) {
+  return id >= system.bodies.size() || !system.bodies[id].mass;
 }
 
 bool is_moving(const Wall& wall) { return wall.velocity[0] != 0 || wall.velocity[1] != 0; }

@@ -153,6 +153,23 @@ ReadBody read_properties(
   return read;
 }
 
+/// Where bodies begin and end at time 0, and where walls across the axis are at both times.
+std::vector<Rational> seen_places(const System& system, std::size_t axis, const Rational& end) {
+  std::vector<Rational> places;
+  for (const Body& body : system.bodies) {
+    const Rational reach = system.dimensions == 1 ? Rational(body.size / 2) : body.size;
+    places.emplace_back(body.position.at(axis) - reach);
+    places.emplace_back(body.position.at(axis) + reach);
+  }
+  for (const Wall& wall : system.walls) {
+    // Nothing tells where a slanted wall ends.
+    if (wall.normal.at(axis) == 0 || wall.normal.at(1 - axis) != 0) continue;
+    places.push_back(wall.point.at(axis));
+    places.emplace_back(wall.point.at(axis) + wall.velocity.at(axis) * end);
+  }
+  return places;
+}
+
 }  // namespace
 
 Rational parse_restitution(const Values& values) {
@@ -350,29 +367,15 @@ std::size_t number_in(std::string_view text, std::string_view beginning) {
   return after == end || *after == '.' ? number : 0;
 }
 
-void show_all(const System& system, View& view) {
-  for (const std::size_t axis : {0U, 1U}) {
-    std::optional<Rational> low;
-    std::optional<Rational> high;
-    const auto include = [&](const Rational& from, const Rational& to) {
-      if (!low || from < *low) low = from;
-      if (!high || to > *high) high = to;
-    };
-    for (const Body& body : system.bodies) {
-      const Rational reach = system.dimensions == 1 ? Rational(body.size / 2) : body.size;
-      include(body.position.at(axis) - reach, body.position.at(axis) + reach);
-    }
-    for (const Wall& wall : system.walls) {
-      // Nothing tells where a slanted wall ends.
-      if (wall.normal.at(axis) == 0 || wall.normal.at(1 - axis) != 0) continue;
-      include(wall.point.at(axis), wall.point.at(axis));
-    }
-    if (axis == 1 && system.dimensions == 1) return;
-    const Rational margin = (*high - *low) / 20;
-    Range& shown = axis == 0 ? view.x : view.y;
-    shown.low = *low - margin;
-    shown.high = *high + margin;
-  }
+void show_all(const System& system, const TimeSpan& time, View& view) {
+  const Rational end = time.to.is_time() ? time.to.offset : 0;
+  const auto show = [&](std::size_t axis, Range& shown) {
+    const auto [low, high] = std::ranges::minmax(seen_places(system, axis, end));
+    const Rational margin = (high - low) / 20;
+    shown = {low - margin, high + margin};
+  };
+  show(0, view.x);
+  if (system.dimensions == 2) show(1, view.y);
 }
 
 Values coordinates_of(const ExactVector& vector, int dimensions) {

@@ -86,8 +86,9 @@ class BodyDraft {
 /// The number that follows `beginning`: the 3 of "body 3.mass" after "body "; else 0.
 std::size_t number_in(std::string_view text, std::string_view beginning);
 
-/// The least range of both axes that shows the box, or the bodies at time 0, with a margin.
-void show_all(const System& system, View& view);
+/// The least range of both axes that shows, with a margin, the bodies at time 0, and the box until
+/// its end if that is a time.
+void show_all(const System& system, const TimeSpan& time, View& view);
 
 /// As many coordinates as there are dimensions, as exact texts.
 Values coordinates_of(const ExactVector& vector, int dimensions);

@@ -20,8 +20,8 @@ std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop, Eng
       engine);
 }
 
-std::optional<Integer> infinite_count(const Log& log) {
-  return is_endless(log) ? std::optional(log.last()) : std::nullopt;
+void require_finite(const Log& log, const std::optional<Rational>& until) {
+  if (const auto collapse = log.collapse(until)) refuse_count(log.system(), *collapse);
 }
 
 void require_certain(const Scene& scene, const Log& log, const std::optional<Rational>& time) {
@@ -74,12 +74,11 @@ std::vector<std::string> convention_notes(const Script& script) {
   return notes;
 }
 
-std::optional<std::string> endless_note(const Log& log) {
-  const std::optional<Collapse> collapse = log.collapse({});
-  if (!collapse) return std::nullopt;
-  return fmt::format("there are {}; the log lists the first {}{}", text_of(log.system(), *collapse),
-                     readable(collapse->listed),
-                     log.pair() ? ", and shows the blocks at rest after them" : "");
+std::string endless_note(const System& system, const Collapse& collapse) {
+  const bool is_pair = two_blocks_of(system).has_value();
+  return fmt::format("there are {}; the log lists the first {}{}", text_of(system, collapse),
+                     readable(collapse.listed),
+                     is_pair ? ", and shows the blocks at rest after them" : "");
 }
 
 std::string listed_collisions(const Log& log, const char* mark) {

@@ -19,8 +19,9 @@ namespace piblocks {
 std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop = {},
                             Engine engine = Engine::unfolded);
 
-/// The index in this log that stands for infinitely many collisions, if one does.
-std::optional<Integer> infinite_count(const Log& log);
+/// @param until  nothing for the whole run
+/// @throws UsageError if there are infinitely many collisions until then.
+void require_finite(const Log& log, const std::optional<Rational>& until);
 
 /// @param time  nothing for the whole run
 /// @throws UsageError if bodies are not certain until this time, unless the scene allows that.
@@ -34,8 +35,8 @@ std::optional<std::string> tie_note(const Log& log, const Integer& last);
 /// number then depends on a convention. A line for each such run.
 std::vector<std::string> convention_notes(const Script& script);
 
-/// How far the log of a run of infinitely many collisions goes; nothing for other scenes.
-std::optional<std::string> endless_note(const Log& log);
+/// How far the log of a run of infinitely many collisions goes.
+std::string endless_note(const System& system, const Collapse& collapse);
 
 /// Which collisions the log lists: "no collisions", "collisions #1 to #31".
 /// @param mark  before each number

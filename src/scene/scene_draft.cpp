@@ -30,20 +30,21 @@ std::optional<Problem> conflict_of(const TomlTable& table, const KeysOfOneValue&
                  .means_nothing = true};
 }
 
-/// Of blocks and wall alike.
 int parse_digits(const Values& values) { return parse_int(single(values), 1, kMaxDigits); }
 
 /// Of the lecture themes, unless a scene says otherwise.
 const Rational kLectureShutter(1, 2);
 
 /// The key of the file that sets what problems_of() calls so.
-std::string key_of(const Scene& scene, const std::string& key) {
+std::string key_of(const Scene& scene, const std::string& key, bool has_bodies) {
   const std::size_t wall = number_in(key, "wall ");
   if (wall == 0) return key;
   const std::vector<Wall>& walls = scene.system.walls;
   const std::string& name = walls.at(wall - 1).name;
-  if (name == "left" || name == "right") return "box.x";
-  if (name == "lower" || name == "upper") return "box.y";
+  const bool is_velocity = key.ends_with(".velocity");
+  if (!has_bodies) return is_velocity ? "wall.velocity" : "wall.face";
+  if (name == "left" || name == "right") return is_velocity ? "box.x-velocity" : "box.x";
+  if (name == "lower" || name == "upper") return is_velocity ? "box.y-velocity" : "box.y";
   return fmt::format("wall {}{}", number_in(name, "slanted-"), key.substr(key.find('.')));
 }
 
@@ -176,7 +177,7 @@ Scene SceneDraft::scene(ProblemLines& problems) const {
   if (!bodies_.empty()) {
     bodies_.put_into(scene, problems);
     View seen = scene.view;
-    show_all(scene.system, seen);
+    show_all(scene.system, scene.time, seen);
     if (!origins_.contains("view.x")) scene.view.x = seen.x;
     if (!origins_.contains("view.y")) scene.view.y = seen.y;
     return scene;
@@ -263,7 +264,7 @@ Scene SceneDraft::make(ProblemLines& problems, bool of_film) const {
   for (Problem problem : problems_of(made)) {
     if (of_film && !is_film_key(problem.key)) continue;
     if (!found.empty() && is_repeated(problem.key)) continue;
-    problem.key = key_of(made, problem.key);
+    problem.key = key_of(made, problem.key, !bodies_.empty());
     found.add(origin_of(problem.key), problem);
   }
   problems.add(found);

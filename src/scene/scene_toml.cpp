@@ -122,7 +122,7 @@ void add_bodies(const Scene& scene, std::vector<std::string>& entries) {
 std::vector<std::string> entries_of(const Scene& scene, const KeyFilter& is_wanted) {
   Scene usual;
   const bool has_bodies = !has_short_names(scene.system);
-  if (has_bodies) show_all(scene.system, usual.view);
+  if (has_bodies) show_all(scene.system, scene.time, usual.view);
   // The lecture themes have another default.
   const bool has_other_shutter = is_lecture(scene.view.theme);
   std::vector<std::string> entries;

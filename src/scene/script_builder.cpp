@@ -170,13 +170,30 @@ class StoryReader {
   ProblemLines& problems_;
 };
 
+/// Takes an item out of a list. @returns whether nothing is left of it
+bool take_out(const std::string& key, const std::string& item, Values& values) {
+  values = list_of(values);
+  const auto is_it = [&](const std::string& text) { return normalized_item(key, text) == item; };
+  if (std::erase_if(values, is_it) == 0 || !values.empty()) return false;
+  // Without its key the theme would choose overlays.
+  if (key == "show.overlays") values = {"none"};
+  return key != "show.overlays";
+}
+
 }  // namespace
 
 struct ScriptBuilder::Impl {
+  struct LeftOutOfPart {
+    std::size_t line;
+    std::string key;
+    std::string item;
+  };
+
   SceneDraft film{"scene"};           // in a storyboard the values for all parts
   std::string path;                   // of the file, or what stands for it in messages
   std::vector<std::string> left_out;  // keys of the file
   std::vector<std::pair<std::string, std::string>> left_out_items;  // keys and what of their lists
+  std::vector<LeftOutOfPart> left_out_of_parts;
   std::vector<TomlTable> parts;
   ProblemLines problems;                                      // of entries that are no parts
   std::vector<std::pair<std::string, std::string>> set_keys;  // origin and key, by set()
@@ -184,6 +201,7 @@ struct ScriptBuilder::Impl {
   void read(const std::string& origin, TomlTable root);
   bool leave_out(TomlEntry& entry) const;
   bool leave_out_items(const std::string& key, Values& values) const;
+  void leave_out_of(std::size_t line, TomlTable& table) const;
 };
 
 ScriptBuilder::ScriptBuilder() : impl_(std::make_unique<Impl>()) {}
@@ -211,21 +229,22 @@ bool ScriptBuilder::Impl::leave_out(TomlEntry& entry) const {
   return !keeps_blocks && !keeps_wall;
 }
 
-/// Takes items out of the texts of a list. @returns whether nothing is left of it.
+/// Takes items out of the texts of a list. @returns whether nothing is left of it
 bool ScriptBuilder::Impl::leave_out_items(const std::string& key, Values& values) const {
-  bool is_changed = false;
-  for (const auto& one : left_out_items) {
-    if (one.first != key) continue;
-    values = list_of(values);
-    const auto is_it = [&](const std::string& text) {
-      return normalized_item(key, text) == one.second;
-    };
-    is_changed |= std::erase_if(values, is_it) > 0;
-  }
-  if (!is_changed || !values.empty()) return false;
-  // Without its key the theme would choose overlays.
-  if (key == "show.overlays") values = {"none"};
-  return key != "show.overlays";
+  return std::ranges::any_of(left_out_items, [&](const auto& one) {
+    return one.first == key && take_out(key, one.second, values);
+  });
+}
+
+/// @param table  the part on this line, or what it compares
+void ScriptBuilder::Impl::leave_out_of(std::size_t line, TomlTable& table) const {
+  std::erase_if(table.entries, [&](TomlEntry& entry) {
+    for (TomlTable& run : entry.tables) leave_out_of(line, run);
+    return std::ranges::any_of(left_out_of_parts, [&](const LeftOutOfPart& out) {
+      return out.line == line && out.key == entry.key &&
+             (out.item.empty() || take_out(out.key, out.item, entry.values));
+    });
+  });
 }
 
 void ScriptBuilder::Impl::read(const std::string& origin, TomlTable root) {
@@ -236,6 +255,7 @@ void ScriptBuilder::Impl::read(const std::string& origin, TomlTable root) {
     const bool is_part = entry.key == "part";
     if (is_part && !entry.tables.empty()) {
       parts = std::move(entry.tables);
+      for (TomlTable& part : parts) leave_out_of(part.line, part);
     } else if (is_part || entry.key.starts_with("part.")) {
       problems.add(path, entry.line, {"part", ": is written [[part]], once for each part"});
     } else {
@@ -257,6 +277,11 @@ void ScriptBuilder::leave_out(const std::string& key) {
 
 void ScriptBuilder::leave_out(const std::string& key, const std::string& item) {
   impl_->left_out_items.emplace_back(key, item);
+}
+
+void ScriptBuilder::leave_out_of_part(std::size_t line, const std::string& key,
+                                      const std::string& item) {
+  impl_->left_out_of_parts.push_back({line, key, item});
 }
 
 void ScriptBuilder::set(const std::string& origin, const std::string& key,

@@ -103,11 +103,7 @@ std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
 }
 
 std::string scene_json(const Scene& scene, const FilmRun& run) {
-  const Rational ratio = mass_ratio_of(scene);
-  const std::optional<int> digits = digits_of(ratio, scene.show.base);
-  return fmt::format(R"("hasTurn":{},"digits":{},"massRatio":{},"bodies":{},"notes":{})",
-                     turn_of(run.log()).has_value(), digits ? fmt::format("{}", *digits) : "null",
-                     json_text(decimal_text(ratio)),
+  return fmt::format(R"("hasTurn":{},"bodies":{},"notes":{})", turn_of(run.log()).has_value(),
                      has_short_names(scene.system) ? "null" : bodies_json(scene),
                      json_texts(notes_of(scene, run)));
 }
@@ -128,13 +124,11 @@ std::string stage_json(const FilmRun& run, const StateRow& state, const DrawList
                                                      (*arrow)[1].x, (*arrow)[1].y)
                                        : "null"));
   }
-  const bool has_arrows = scene.show.has(Overlay::velocities);
-  const ArrowLengths lengths(scene.system, layout);
-  return fmt::format(R"({{"scale":{},"zero":{},"floor":{},"blocks":{},"arrowScale":{},)"
-                     R"("longestArrow":{}}})",
-                     layout.scale, layout.origin.x, layout.floor_px, json_array(blocks),
-                     has_arrows ? lengths.px_per_speed() : 0,
-                     has_arrows ? lengths.longest_px() : 0);
+  std::optional<ArrowLengths> lengths;
+  if (scene.show.has(Overlay::velocities)) lengths.emplace(scene, run.log(), layout);
+  return fmt::format(R"({{"scale":{},"blocks":{},"arrowScale":{},"longestArrow":{}}})",
+                     layout.scale, json_array(blocks), lengths ? lengths->px_per_speed() : 0,
+                     lengths ? lengths->longest_px() : 0);
 }
 
 }  // namespace

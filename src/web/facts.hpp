@@ -16,14 +16,14 @@ std::string body_json(const Body& body, const BodyStyle& style, int dimensions);
 
 /// {"kind":"scene" or "storyboard","width":…,"height":…,"rate":[numerator,denominator],
 ///  "frames":…,"filmProblem":"…","keys":{"…":["…"]},"toml":"…","ranges":RANGES}, and for a scene
-///  also "hasTurn", "digits" (null unless the mass ratio is that of some digits), "massRatio",
-///  "bodies" (null if there are two blocks and a wall), "notes". Width and height are those of the
-///  picture. "keys" has numbers as decimals where they are decimals; those of two blocks and a wall
-///  also "digits", "mass-ratio" and "wall.mass", and those of a storyboard hold for the whole film.
+///  also "hasTurn", "bodies" (null if there are two blocks and a wall), "notes". Width and height
+///  are those of the picture. "keys" has numbers as decimals where they are decimals; those of two
+///  blocks and a wall also "digits", "mass-ratio" and "wall.mass", and those of a storyboard hold
+///  for the whole film.
 std::string facts_json(const LiveScript& live, std::string_view ranges = "{}");
 
 /// {"frame":…,"nearFrame":…,"state":"…","stage":…}: what the film shows at this place. For blue and
-/// red on a line "stage" is {"scale":…,"zero":…,"floor":…,"blocks":[{"key":"blue",
+/// red on a line "stage" is {"scale":…,"blocks":[{"key":"blue",
 /// "rect":[x,y,width,height],"arrow":[x,y,x,y] or null},{"key":"red",…}],"arrowScale":…,
 /// "longestArrow":…} in pixels, else null. An arrow of a small velocity is this times "arrowScale"
 /// long, and one of any length the velocity is length / (1 - length / longestArrow) / arrowScale;

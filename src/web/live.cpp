@@ -116,7 +116,7 @@ std::optional<LiveScript::Place> LiveScript::collision_beside(const Place& place
   const Log& log = run()->log();
   const Rational time = time_of(place.instant, log);
   const Integer count = log.count_at(time);
-  if (infinite_count(log) == count) return std::nullopt;
+  if (log.state_at(time).is_infinite) return std::nullopt;
   const bool is_at_collision =
       count >= log.first_index() && time_of(Instant::collision(count), log) == time;
   Integer index = step > 0 ? count + 1 : is_at_collision ? count - 1 : count;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -29,6 +31,31 @@ constexpr const char* kPlainTheme = "article";
 bool is_body_label(const std::string& key) {
   return number_in(key, "body ") > 0 && key.ends_with(".label");
 }
+
+/// What a scene shows, under 0; or what each part of a storyboard shows, under its line.
+using Shows = std::map<std::size_t, Show>;
+
+/// The lists and texts of all runs of a part together.
+Shows shows_of(const Script& script) {
+  if (const auto* const scene = std::get_if<Scene>(&script)) return {{0, scene->show}};
+  Shows shows = {{0, {}}};
+  for (const Segment& segment : std::get<Storyboard>(script).segments) {
+    Show& all = shows[number_in(segment.origin, "scene:")];
+    const auto* const scenes = std::get_if<Scenes>(&segment.content);
+    for (const Scene& scene : scenes ? *scenes : Scenes{}) {
+      const Show& show = scene.show;
+      if (all.panels.empty()) all.panels = show.panels;
+      if (!all.overlays || all.overlays->empty()) all.overlays = show.overlays;
+      if (all.caption.empty()) all.caption = show.caption;
+      if (all.title.empty()) all.title = show.title;
+      if (all.logo.empty()) all.logo = show.logo;
+    }
+  }
+  return shows;
+}
+
+/// Whether a part of a storyboard may have the key.
+bool is_of_part(const std::string& key) { return !is_film_key(key) && !is_body_label(key); }
 
 /// What there is to leave out where everything together has too little room, beginning with what is
 /// missed least.
@@ -78,7 +105,6 @@ class Opener {
 
  private:
   OpenedScript attempt() {
-    show_ = {};
     OpenedScript opening{.builder = builder_of(request_.text, settings_, left_out_)};
     if (has_fixed_end_) {
       opening.builder->set("time.from", "time.from", "0");
@@ -86,7 +112,7 @@ class Opener {
     }
     if (has_plain_theme_) opening.builder->set("view.theme", "view.theme", kPlainTheme);
     Script script = opening.builder->build();
-    if (const auto* const scene = std::get_if<Scene>(&script)) show_ = scene->show;
+    shows_ = shows_of(script);
     opening.live = live_of(std::move(script));
     return opening;
   }
@@ -127,8 +153,11 @@ class Opener {
   /// What to leave out because of this problem; nothing if that is of no use.
   std::optional<LeftOut> what_to_leave_out(const Problem& problem) const {
     if (!can_be_left_out(problem)) return std::nullopt;
-    LeftOut out = problem.key == "show" ? least_needed(show_) : LeftOut{problem.key, problem.item};
-    if (out.item.empty()) out.item = last_of_list(out.key);
+    const std::size_t part = part_of(problem);
+    const Show& show = shows_.at(part);
+    LeftOut out = problem.key == "show" ? least_needed(show) : LeftOut{problem.key, problem.item};
+    if (out.item.empty()) out.item = last_of_list(out.key, show);
+    if (is_of_part(out.key)) out.part = part;
     const bool is_of_all = problem.key == "show" && changed_.starts_with("show.");
     if (is_of_all || set_same_value(out.key, changed_) || is_among(did_not_help_, out))
       return std::nullopt;
@@ -137,15 +166,23 @@ class Opener {
   }
 
   /// What to take from a list where it is not known which name is too much.
-  std::string last_of_list(const std::string& key) const {
-    if (key == "show.panels" && !show_.panels.empty()) return exact_text(show_.panels.back());
-    const bool has_overlays = show_.overlays && !show_.overlays->empty();
-    return key == "show.overlays" && has_overlays ? exact_text(show_.overlays->back()) : "";
+  static std::string last_of_list(const std::string& key, const Show& show) {
+    if (key == "show.panels" && !show.panels.empty()) return exact_text(show.panels.back());
+    const bool has_overlays = show.overlays && !show.overlays->empty();
+    return key == "show.overlays" && has_overlays ? exact_text(show.overlays->back()) : "";
+  }
+
+  /// The line of the part that a problem is of; 0 if it is of none.
+  std::size_t part_of(const Problem& problem) const {
+    const std::string_view origin = problem.origin;
+    const std::size_t line = number_in(origin.substr(0, origin.find(": ")), "scene:");
+    return std::prev(shows_.upper_bound(line))->first;
   }
 
   static bool is_among(const std::vector<LeftOut>& list, const LeftOut& one) {
-    return std::ranges::any_of(
-        list, [&](const LeftOut& other) { return other.key == one.key && other.item == one.item; });
+    return std::ranges::any_of(list, [&](const LeftOut& other) {
+      return other.key == one.key && other.item == one.item && other.part == one.part;
+    });
   }
 
   /// Leaves out what these problems are about. What was left out already, and did not help, is
@@ -188,7 +225,7 @@ class Opener {
   std::vector<LeftOut> did_not_help_;
   bool has_fixed_end_ = false;
   bool has_plain_theme_ = false;
-  Show show_;  ///< of the last attempt
+  Shows shows_ = {{0, {}}};  ///< of the last attempt
 };
 
 std::string problem_json(const Problem& problem) {
@@ -241,7 +278,7 @@ std::string facts_of(const OpenedScript& opening) {
 std::string opened_json(const OpenedScript& opening, std::string_view facts,
                         std::string_view picture) {
   std::vector<std::string> left_out;
-  for (const auto& [key, item, reason] : opening.left_out) {
+  for (const auto& [key, item, reason, part] : opening.left_out) {
     left_out.push_back(fmt::format(R"({{"key":{},"item":{},"reason":{}}})", json_text(key),
                                    json_text(item), json_text(reason)));
   }

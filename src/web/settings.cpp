@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "core/text.hpp"
 #include "scene/body_keys.hpp"
@@ -20,9 +21,21 @@ bool resets(const Setting& setting, const std::string& key) {
   return set_same_value(setting.key, key) || key.starts_with(setting.key + '.');
 }
 
+/// The key of a setting, of which later ones may have reset a half.
+std::string key_left(const Setting& setting, std::span<const Setting> later) {
+  if (setting.key != "restitution") return setting.key;
+  const auto is_reset = [&](std::string_view key) {
+    return std::ranges::any_of(later,
+                               [&](const Setting& one) { return !one.texts && one.key == key; });
+  };
+  if (is_reset("blocks.restitution")) return "wall.restitution";
+  return is_reset("wall.restitution") ? "blocks.restitution" : setting.key;
+}
+
 bool is_left_out(const std::vector<LeftOut>& left_out, const std::string& key) {
-  return std::ranges::any_of(
-      left_out, [&](const LeftOut& out) { return out.item.empty() && out.key == key; });
+  return std::ranges::any_of(left_out, [&](const LeftOut& out) {
+    return out.part == 0 && out.item.empty() && out.key == key;
+  });
 }
 
 std::unique_ptr<ScriptBuilder> read(std::string_view text, const std::vector<Setting>& settings,
@@ -36,7 +49,9 @@ std::unique_ptr<ScriptBuilder> read(std::string_view text, const std::vector<Set
     if (!setting.texts) builder->leave_out(setting.key);
   }
   for (const LeftOut& out : left_out) {
-    if (out.item.empty()) {
+    if (out.part > 0) {
+      builder->leave_out_of_part(out.part, out.key, out.item);
+    } else if (out.item.empty()) {
       builder->leave_out(out.key);
     } else {
       builder->leave_out(out.key, out.item);
@@ -44,10 +59,11 @@ std::unique_ptr<ScriptBuilder> read(std::string_view text, const std::vector<Set
   }
   builder->read_text("scene", text);
   for (auto setting = settings.begin(); setting != settings.end(); ++setting) {
-    const auto is_reset = [&](const Setting& later) { return resets(later, setting->key); };
-    if (!setting->texts || is_left_out(left_out, setting->key)) continue;
+    const std::string key = key_left(*setting, {setting, settings.end()});
+    const auto is_reset = [&](const Setting& later) { return resets(later, key); };
+    if (!setting->texts || is_left_out(left_out, key)) continue;
     if (std::any_of(setting, settings.end(), is_reset)) continue;
-    builder->set(setting->key, setting->key, *setting->texts);
+    builder->set(setting->key, key, *setting->texts);
   }
   return builder;
 }

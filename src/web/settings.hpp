@@ -4,6 +4,7 @@
 
 #include <piblocks/script.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ struct LeftOut {
   std::string key;
   std::string item = {};    ///< of the key's list; empty if all of the key is left out
   std::string reason = {};  ///< in words for it alone: "needs elastic collisions"
+  std::size_t part = 0;     ///< line of the [[part]] that has the key; 0 for none
 };
 
 /// A line of settings.

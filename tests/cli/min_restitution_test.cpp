@@ -9,7 +9,7 @@
 namespace piblocks {
 namespace {
 
-class NeedCli : public CliFixture {};
+class MinRestitutionCli : public CliFixture {};
 
 /// The word behind `before` in a line, without a comma, a full stop or the like behind it.
 std::string word_behind(const std::string& line, const std::string& before) {
@@ -22,7 +22,7 @@ std::string word_behind(const std::string& line, const std::string& before) {
 }
 
 /// What is printed can be given to `count`: the one restitution is enough, the other is not.
-TEST_F(NeedCli, PrintsDecimalsThatCountTakes) {
+TEST_F(MinRestitutionCli, PrintsDecimalsThatCountTakes) {
   for (const auto& [digits, base, count, more] : {std::tuple{"1", "10", "3", "4"},
                                                   {"2", "10", "31", "32"},
                                                   {"3", "10", "314", "315"},
@@ -56,7 +56,7 @@ TEST_F(NeedCli, PrintsDecimalsThatCountTakes) {
 }
 
 /// From 217 digits on the loss is smaller than any double.
-TEST_F(NeedCli, TellsLossesThatNoDoubleHolds) {
+TEST_F(MinRestitutionCli, TellsLossesThatNoDoubleHolds) {
   const auto count_of = [&](int digits) {
     return lines(output_of({"count", "--digits", std::to_string(digits)})).front();
   };

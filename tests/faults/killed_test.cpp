@@ -129,13 +129,10 @@ class ResumedTest : public FaultFixture {
     }
     return found;
   }
+  /// Waits for whole pictures: each job may be at one more.
   void kill_after_pictures(std::size_t count, int signal, const Arguments& arguments) const {
     RunningCommand command(arguments, {.folder = out()});
-    ASSERT_TRUE(wait_until([&] {
-      std::error_code none;
-      return std::distance(fs::directory_iterator(unfinished() / "new", none), {}) >=
-             std::ptrdiff_t(count);
-    }));
+    ASSERT_TRUE(wait_until([&] { return pictures().size() >= count; }));
     command.send(signal);
     command.wait();
   }

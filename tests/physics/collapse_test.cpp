@@ -125,9 +125,17 @@ TEST(Collapse, OtherTriplesEnd) {
     row.bodies[1].restitution = random.rational(0, 1, 12);
     const auto log = make_log(row);
     log->last();
-    if (!log->collapse({})) ++ended;
+    const Rational kappa =
+        *row.bodies[0].mass * *row.bodies[2].mass /
+        ((*row.bodies[0].mass + *row.bodies[1].mass) * (*row.bodies[1].mass + *row.bodies[2].mass));
+    const Rational e = restitution_of(row, 0, 1);
+    const Rational f = restitution_of(row, 1, 2);
+    const Rational trace = (1 + e) * (1 + f) * kappa - e - f;
+    if (trace > 0 && trace * trace >= 4 * e * f) continue;
+    EXPECT_FALSE(log->collapse({})) << "system " << i;
+    ++ended;
   }
-  EXPECT_GT(ended, 0);
+  EXPECT_GT(ended, 20);
 }
 
 TEST(Collapse, StepsAgreeWithTheClosedForm) {

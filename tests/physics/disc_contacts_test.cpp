@@ -1,5 +1,6 @@
 // Several contacts at one instant: hits that are symmetric, struck rows, racks and corners.
 #include <gtest/gtest.h>
+#include <piblocks/log.hpp>
 
 #include <array>
 #include <cmath>
@@ -40,6 +41,16 @@ Outcome run_of(const System& system, std::size_t most = 1000) {
   }
   run.certain_until = stepper->certain_until();
   return run;
+}
+
+std::array<double, 2> momentum_of(const System& system, const Outcome& run) {
+  std::array<double, 2> sum = {};
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    for (const std::size_t axis : {0U, 1U}) {
+      sum.at(axis) += system.bodies[i].mass->get_d() * run.velocities[i].at(axis);
+    }
+  }
+  return sum;
 }
 
 double energy_of(const System& system, const Outcome& run) {
@@ -161,6 +172,16 @@ TEST(DiscContacts, RackBreaksSymmetrically) {
   }
 }
 
+/// By the rule it sticks together after some stages, and flies on.
+TEST(DiscContacts, ARowThatSticksGoesOn) {
+  const System row{.dimensions = 2,
+                   .bodies = {{1, {-4, 0}, {1, 0}}, {1, {0, 0}}, {1, {2, 0}}},
+                   .restitution = 0};
+  const auto log = make_log(row);
+  EXPECT_FALSE(log->collapse({}));
+  EXPECT_NEAR(log->state_at(10).bodies[2].velocity[0], 1.0 / 3, 1e-11);
+}
+
 /// Clusters of a hexagonal lattice, struck by one disc: energy, momentum, and no contact
 /// approaches.
 TEST(DiscContacts, ClustersKeepWhatCollisionsKeep) {
@@ -179,12 +200,16 @@ TEST(DiscContacts, ClustersKeepWhatCollisionsKeep) {
     const double before = energy_of(system, run_of(system, 0));
     const auto stepper = make_disc_stepper(system);
     Outcome run = run_of(system, 0);
+    const std::array<double, 2> momentum = momentum_of(system, run);
     while (const auto step = stepper->step()) {
       if (step->time.hi > 0) break;
       run.velocities[step->first] = step->first_after.velocity;
       run.velocities[step->second] = step->second_after.velocity;
     }
     const double after = energy_of(system, run);
+    for (const std::size_t axis : {0U, 1U}) {
+      EXPECT_NEAR(momentum_of(system, run).at(axis), momentum.at(axis), 1e-12) << trial;
+    }
     EXPECT_LE(after, before + 1e-12) << trial;
     EXPECT_GE(after, trial % 2 == 0 ? before - 1e-12 : 0) << trial;
     for (std::size_t i = 0; i < system.bodies.size(); ++i) {

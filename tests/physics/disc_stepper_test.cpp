@@ -184,7 +184,7 @@ TEST(DiscStepper, RestitutionIsTheShareOfTheSpeedAtWhichDiscsPart) {
 }
 
 /// (1 + e) w more than the mirrored velocity: of a wall, and of a disc of infinite mass.
-TEST(DiscStepper, WhatNoCollisionMovesPushes) {
+TEST(DiscStepper, ImmovableBodiesPushDiscs) {
   System system{.dimensions = 2,
                 .bodies = {{1, {0, 0}}},
                 .walls = {{"piston", {-9, 0}, {1, 0}, {2, 0}}},

@@ -145,7 +145,7 @@ TEST(DrivenLine, NothingMovesTwoAsideThatNoCollisionMoves) {
   const auto ask = [&] { static_cast<void>(log->state_at(3)); };
   EXPECT_TRUE(testing_support::contains(
       testing_support::message_of<SimulationError>(ask),
-      "body 2 and the left wall would meet at t = 3, and nothing moves them aside"));
+      "body 2 and the left wall meet at t = 3, and neither can give way"));
 }
 
 }  // namespace

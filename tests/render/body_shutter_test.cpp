@@ -57,7 +57,7 @@ TEST(BodyShutter, FramesOfBlocksAreMeansOfInstants) {
                     {.mass = 2, .position = {7, 0}, .size = Rational(1, 3)}},
                    1),
                3);
-  for (const std::int64_t frame : {0, 2, 3, 4, 7, 11, 20}) {
+  for (const std::int64_t frame : {0, 3, 7, 20}) {
     EXPECT_LE(difference_of(scene, frame).worst, 5.5) << frame;
   }
 }
@@ -68,7 +68,7 @@ TEST(BodyShutter, FramesOfTouchingBlocksAreMeansOfInstants) {
     bodies.push_back({.position = {3 + i * Rational(3, 7), 0}, .size = Rational(3, 7)});
   }
   const Scene scene = scene_of(box(std::move(bodies), 1), 2);
-  for (const std::int64_t frame : {1, 2, 3, 5, 8}) {
+  for (const std::int64_t frame : {1, 3, 8}) {
     EXPECT_LE(difference_of(scene, frame).worst, 3) << frame;
   }
 }
@@ -211,7 +211,7 @@ TEST(BodyShutter, FramesOfTheClosedFormAreMeansOfInstants) {
     if (!is_inner_first) std::swap(system.bodies[0], system.bodies[1]);
     const Scene scene = scene_of(std::move(system), 8);
     // The turn is at 4.
-    for (const std::int64_t frame : {15, 30, 38, 39, 40, 60}) {
+    for (const std::int64_t frame : {30, 39, 40}) {
       EXPECT_LE(difference_of(scene, frame).worst, 2.5) << frame;
     }
   }
@@ -227,7 +227,7 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
                     {.mass = std::nullopt, .position = {3, 3}, .size = Rational(1, 3)}},
                    2),
                2);
-  for (const std::int64_t frame : {0, 1, 2, 3, 5, 9, 14}) {
+  for (const std::int64_t frame : {0, 1, 3, 9}) {
     const LightDifference difference = difference_of(scene, frame);
     // At an instant Cairo paints small discs at multiples of 1/8 pixel.
     EXPECT_LE(difference.worst, 20) << frame;
@@ -236,7 +236,7 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
   scene.system.bodies[2].size = Rational(1, 2);  // now all are large
   scene.view.width_px = 640;
   scene.view.height_px = 360;
-  for (const std::int64_t frame : {0, 3, 5}) {
+  for (const std::int64_t frame : {0, 5}) {
     EXPECT_LE(difference_of(scene, frame).worst, 16) << frame;
   }
 }

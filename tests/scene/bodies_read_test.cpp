@@ -136,6 +136,9 @@ TEST_F(BodiesFile, TheViewShowsEverything) {
   EXPECT_EQ(shown(blocks.view.y), shown(View().y));
   const Scene boxed = load("[box]\nx = [-10, 10]\n[time]\nto = 1\n" + block);
   EXPECT_EQ(shown(boxed.view.x), std::pair(Rational(-11), Rational(11)));
+  const Scene moving =
+      load("[box]\nx = [-10, 10]\nx-velocity = [-2, -3]\n[time]\nto = 5\n" + block);
+  EXPECT_EQ(shown(moving.view.x), std::pair(Rational(-43, 2), Rational(23, 2)));
   const std::string disc = "[[body]]\nposition = [2, 4]\nradius = 0.5\n";
   const Scene discs = load(disc + "[[body]]\nposition = [5, 2]\nradius = 1\n");
   EXPECT_EQ(shown(discs.view.x), std::pair(parse_rational("1.275"), parse_rational("6.225")));

@@ -85,9 +85,10 @@ TEST(RealBodies, ProblemsNameTheirKeys) {
                 "box.x-velocity: moves an end of the box that has no wall"),
             "");
   EXPECT_EQ(has("wall.face = \"-inf\"\nwall.mass = 5\n", "wall.mass: there is no wall"), "");
-  EXPECT_EQ(has("box.x-velocity = 1\n" + kDisc, "must be two numbers"), "");
-  EXPECT_EQ(has("wall.velocity = 1\n" + kDisc, "this scene has [[body]]"), "");
-  EXPECT_EQ(has(kDisc + "[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\nspeed = 3\n", "unknown key"),
+  EXPECT_EQ(has("box.x-velocity = 1\n" + kDisc, "box.x-velocity = 1: must be two numbers"), "");
+  EXPECT_EQ(has("wall.velocity = 1\n" + kDisc, "wall.velocity: this scene has [[body]]"), "");
+  EXPECT_EQ(has(kDisc + "[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\nspeed = 3\n",
+                "wall.speed: unknown key"),
             "");
 }
 

@@ -13,7 +13,7 @@ namespace piblocks::stress {
 namespace {
 
 void check_systems(const std::function<System(Random&)>& draw, double expected,
-                   std::int64_t number = 2000) {
+                   std::int64_t number = 800) {
   TracedRandom random(71);
   const std::int64_t systems = many(number);
   std::size_t certain = 0;
@@ -40,13 +40,15 @@ TEST(DiscCertaintyStress, OfRandomDiscs) { check_systems(random_discs, 30); }
 TEST(DiscCertaintyStress, OfDiscsThatMeetByCoincidence) { check_systems(random_coincidences, 3); }
 
 TEST(DiscCertaintyStress, OfDiscsThatLoseEnergyBetweenMovingWalls) {
-  check_systems([](Random& random) { return make_real(random, random_discs(random)); }, 20);
+  check_systems([](Random& random) { return with_loss_and_motion(random, random_discs(random)); },
+                20);
 }
 
 TEST(DiscCertaintyStress, OfRacksThatAreStruck) { check_systems(random_rack, 3); }
 
 TEST(DiscCertaintyStress, OfCoincidencesThatLoseEnergy) {
-  check_systems([](Random& random) { return make_real(random, random_coincidences(random)); }, 2);
+  check_systems(
+      [](Random& random) { return with_loss_and_motion(random, random_coincidences(random)); }, 2);
 }
 
 /// Rational numbers: again and again it meets two walls at once, or nearly.
@@ -55,7 +57,7 @@ TEST(DiscCertaintyStress, OfADiscInABox) {
     System system{.dimensions = 2,
                   .bodies = {{1, {2, 2}, {random.rational(-2, 2, 3), random.rational(-2, 2, 3)}}},
                   .walls = box(random.rational(4, 8, 3), random.rational(4, 8, 3))};
-    return random.integer(0, 1) == 0 ? make_real(random, system) : system;
+    return random.integer(0, 1) == 0 ? with_loss_and_motion(random, system) : system;
   };
   check_systems(draw, 100, 100);
 }

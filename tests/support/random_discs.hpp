@@ -100,7 +100,7 @@ inline System random_discs(Random& random) {
 
 /// Collisions lose energy, by their own coefficients here and there; walls and immovable discs
 /// move.
-inline System make_real(Random& random, System system) {
+inline System with_loss_and_motion(Random& random, System system) {
   const auto loss = [&]() -> Rational { return random.rational(0, 1, 7); };
   system.restitution = loss();
   system.wall_restitution = random.integer(0, 2) == 0 ? loss() : Rational(1);

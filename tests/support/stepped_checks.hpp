@@ -59,6 +59,11 @@ inline void expect_stepped_like_closed(const TwoBlocks& blocks) {
     const auto until = stepped->certain_until({});
     const bool is_same = !collapse && stepped->last() == closed->last();
     EXPECT_TRUE(is_same || until);
+    // Where all is exact there is no excuse.
+    const Integer last = stepped->last();
+    if (last == 0 || stepped->is_exact(last)) {
+      EXPECT_TRUE(is_same) << last;
+    }
     const double latest = collapse ? collapse->time->hi * (1 + 0x1p-18) : kForEver;
     EXPECT_LE(until.value_or(kForEver), latest);
     return;

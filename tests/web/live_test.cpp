@@ -249,13 +249,6 @@ bool has(const std::string& text, const std::string& part) {
   return facts_json(LiveScript(script_of(text))).find(part) != std::string::npos;
 }
 
-TEST(Facts, TellDigits) {
-  EXPECT_TRUE(has("", R"("digits":3,"massRatio":"10000")"));
-  EXPECT_TRUE(has("red.mass = 17", R"("digits":null,"massRatio":"17")"));
-  EXPECT_TRUE(has("base = 2\ndigits = 5", R"("digits":5,"massRatio":"256")"));
-  EXPECT_TRUE(has("red.mass = \"1/100\"", R"("digits":null)"));
-}
-
 TEST(Facts, TellKeysAndBodies) {
   EXPECT_TRUE(has("", R"("red.mass":["10000"])"));
   EXPECT_TRUE(has(kStory, R"("view.size":["320x180"])"));

@@ -74,12 +74,11 @@ class Counter {
         face_(context.font.face()),
         base_(context.scene.show.base),
         last_(last_shown(context.scene, context.log)),
-        is_endless_(is_endless(context.log)),
         pulses_(context.shows_hits()),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
         count_widths_(context.fonts.of(Face::digits),
-                      count_characters(base_) + (is_endless_ ? std::string(kEndlessCount) : "")),
+                      count_characters(base_) + std::string(kEndlessCount)),
         pi_widths_(context.font, std::string(kPiLabel) + "…" + pi_),
         label_px_(context.font.width_em(kCountLabel) * sizes_.text),
         over_px_(context.font.width_em(kOverLabel) * sizes_.text) {}
@@ -154,8 +153,7 @@ class Counter {
   Face face_;
   int base_;
   std::optional<Integer> last_;  ///< of the run, if the film comes that far
-  bool is_endless_;
-  bool pulses_;  ///< where hits are seen
+  bool pulses_;                  ///< where hits are seen
   std::string pi_count_;
   std::string pi_;
   TextWidths count_widths_;

@@ -157,7 +157,7 @@ void LoupeInset::place_scenery(const DrawingContext& context) {
     Point from = mirrored(Point{face_px_, top});
     Point to = mirrored(Point{face_px_, floor_px_ + line});
     if (gap_.side < 0) std::swap(from, to);
-    items = hatched_face(from, to, context, kWallHatch);
+    items = hatched_face(from, to, FaceStyle(context), kWallHatch);
   }
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
                                    mirrored(Rect{floor_left, floor_px_, bounds_.width, line}),

@@ -130,7 +130,7 @@ std::optional<LoupeGap> gap_of_pair(const DrawingContext& context, const Loupe& 
 /// A wall keeps its place in the picture, else what is immovable, else the body on the left.
 LoupeGap gap_between(const Collision& met, const System& system) {
   const auto is_wall = [&](std::size_t id) { return id >= system.bodies.size(); };
-  const auto is_fixed = [&](std::size_t id) { return is_wall(id) || !system.bodies[id].mass; };
+  const auto is_fixed = [&](std::size_t id) { return is_immovable(system, id); };
   LoupeGap gap{.anchor = met.first, .outer = met.second};
   const double way = met.second_after.position[0] - met.first_after.position[0];
   gap.side = way > 0 ? 1 : -1;

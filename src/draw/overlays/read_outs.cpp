@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -158,36 +157,42 @@ struct Scale {
 /// Whether there is a word for each body, so that its share of a sum can be shown.
 bool has_names(const LayoutContext& context) { return context.pair() != nullptr; }
 
-double energy_in(const std::vector<double>& masses, const State& state) {
-  double sum = 0;
+/// It may be beyond the range of a double.
+mpf_class energy_in(const std::vector<mpf_class>& masses, const State& state) {
+  mpf_class sum = 0;
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const auto& [x, y] = state.bodies[i].velocity;
-    sum += masses[i] * (x * x + y * y) / 2;
+    sum += masses[i] * (mpf_class(x) * x + mpf_class(y) * y) / 2;
   }
   return sum;
 }
 
-/// Of bodies whose collisions lose energy, or that get some from what moves as it likes.
-ReadOut changing_energy(const LayoutContext& context, const Rational& first, int digits) {
-  const auto& [scene, log] = std::tie(context.scene, context.log);
-  std::vector<double> masses;
-  for (const Body& body : scene.system.bodies) masses.push_back(to_double(body.mass.value_or(0)));
-  double most = to_double(first);
-  if (is_driven(scene.system) && has_span(scene, log)) {
-    most = std::max(most, energy_in(masses, log.state_at(span_of(scene, log).to)));
-  }
-  const Scale scale(magnitude_of(rational_from_decimal(most)), digits);
-  const double unit = scale.is_plain ? 1 : scale.largest.mantissa / most;
-  const auto text = [=, begin = to_double(first), is_kept = is_elastic(scene.system),
-                     is_driven = is_driven(scene.system)](double now) {
-    const std::string energy = fmt::format("Energy{} {}", scale.unit, scale.text(now * unit));
-    if (!is_driven) return fmt::format("{}, lost {}", energy, scale.text((begin - now) * unit));
-    if (!is_kept) return fmt::format("{}, at first {}", energy, scale.text(begin * unit));
-    const double gain = (now - begin) * unit;
-    return fmt::format("{}, from outside {}{}", energy, gain < 0 ? "" : "+", scale.text(gain));
+/// The energy of bodies that lose some in collisions, or get some from what no collision moves.
+ReadOut changing_energy(const LayoutContext& context, int digits) {
+  const System& system = context.scene.system;
+  std::vector<mpf_class> masses;
+  for (const Body& body : system.bodies) masses.emplace_back(body.mass.value_or(0));
+  const Rational exact_most = most_twice_energy(context.scene, context.log) / 2;
+  const Scale scale(magnitude_of(exact_most), digits);
+  const mpf_class most(exact_most);
+  const mpf_class begin(Rational(twice_energy(system) / 2));
+  const mpf_class unit = scale.is_plain || most == 0 ? mpf_class(1) : scale.largest.mantissa / most;
+  const auto text = [=, is_lossless = is_elastic(system), has_drive = is_driven(system)](
+                        const mpf_class& now, const mpf_class& first) {
+    const auto number = [&](const mpf_class& value) {
+      return scale.text(mpf_class(value * unit).get_d());
+    };
+    const std::string energy = fmt::format("Energy{} {}", scale.unit, number(now));
+    if (!has_drive) return fmt::format("{}, lost {}", energy, number(first - now));
+    if (!is_lossless) return fmt::format("{}, at first {}", energy, number(first));
+    return fmt::format("{}, from outside {}{}", energy, now < first ? "" : "+",
+                       number(now - first));
   };
-  return {"energy", text(most),
-          [=](const FrameState& shown) { return text(energy_in(masses, shown.state)); },
+  // The second number is as long as the first at most, and has a sign if it comes from outside.
+  const bool has_first = is_driven(system) && !is_elastic(system);
+  const std::string widest = text(most, has_first ? begin : mpf_class(2 * most));
+  return {"energy", widest,
+          [=](const FrameState& shown) { return text(energy_in(masses, shown.state), begin); },
           context.palette.text};
 }
 
@@ -195,8 +200,8 @@ ReadOut changing_energy(const LayoutContext& context, const Rational& first, int
 ReadOut energy_read_out(const LayoutContext& context, int digits) {
   const System& system = context.scene.system;
   const Rational exact_sum = twice_energy(system) / 2;
-  const bool is_kept_by_all = is_elastic(system) && !is_driven(system);
-  if (!has_names(context) && !is_kept_by_all) return changing_energy(context, exact_sum, digits);
+  const bool is_constant = is_elastic(system) && !is_driven(system);
+  if (!has_names(context) && !is_constant) return changing_energy(context, digits);
   if (!has_names(context)) {
     std::string text = fmt::format("Energy {}", short_text(exact_sum));
     return {"energy", text, [=](const FrameState&) { return text; }, context.palette.text};
@@ -234,7 +239,7 @@ class Momenta {
   Momenta(const LayoutContext& context, int digits)
       : system_(context.scene.system),
         // The heaviest body has the most momentum when it has all the energy.
-        most_squared_(twice_energy(system_) * heaviest_mass(system_)),
+        most_squared_(most_twice_energy(context.scene, context.log) * heaviest_mass(system_)),
         scale_(root_magnitude_of(most_squared_), digits),
         most_(scale_.largest.mantissa *
               (scale_.is_plain ? to_double(power_of_ten(scale_.largest.exponent)) : 1)) {
@@ -334,8 +339,9 @@ ReadOut fitted(const LayoutContext& context,
 }
 
 /// From this time on the picture may be wrong.
-ReadOut certainty_read_out(const LayoutContext& context, double until) {
-  const std::string text = "from here on rounding may decide";
+ReadOut certainty_read_out(const LayoutContext& context, double until, bool is_collapse) {
+  const std::string text =
+      is_collapse ? "from here on nothing is computed" : "from here on rounding may decide";
   return {"certainty", text,
           [=](const FrameState& shown) {
             return to_double(shown.time) >= until ? text : std::string();
@@ -353,7 +359,8 @@ std::vector<ReadOut> read_outs_of(const LayoutContext& context) {
   if (context.log.is_always_certain() || !has_span(context.scene, context.log)) return read_outs;
   const Span span = span_of(context.scene, context.log);
   if (const std::optional<double> until = context.log.certain_until(span.to)) {
-    read_outs.push_back(certainty_read_out(context, *until));
+    read_outs.push_back(
+        certainty_read_out(context, *until, context.log.collapse(span.to).has_value()));
   }
   return read_outs;
 }

@@ -54,7 +54,7 @@ std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFa
   const Log& log = context.log;
   std::vector<Formula> wordings;
   // The curve ends at the last one of these that the log has.
-  if (is_endless(log) && log.count_at(span_of(context.scene, log).to) == log.last()) {
+  if (log.state_at(span_of(context.scene, log).to).is_infinite) {
     return {set.text("Infinitely many collisions"), set.text("Collisions")};
   }
   if (turn.is_shown && !turn.is_half) wordings.push_back(set.text("The count jumps at the turn"));

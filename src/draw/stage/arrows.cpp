@@ -117,7 +117,7 @@ class BlockArrows {
         text_color_(context.palette.text),
         font_face_(context.font.face()),
         widths_(context.font, kNumberCharacters),
-        lengths_(context.scene.system, context.layout),
+        lengths_(context.scene, context.log, context.layout),
         line_px_(context.sizes.data_line),
         short_side_(context.sizes.short_side),
         text_px_(context.sizes.text) {
@@ -232,7 +232,7 @@ class DiscArrows {
     for (const Body& body : context.scene.system.bodies) {
       if (body.mass) mass += *body.mass;
     }
-    const Rational energy = twice_energy(context.scene.system);
+    const Rational energy = most_twice_energy(context.scene, context.log);
     if (energy == 0) return;
     const mpf_class usual_speed = root_of(energy / mass);
     px_per_speed_ = mpf_class(kDiscArrow * context.sizes.short_side / usual_speed).get_d();
@@ -263,10 +263,11 @@ class DiscArrows {
 
 }  // namespace
 
-ArrowLengths::ArrowLengths(const System& system, const Layout& layout) {
+ArrowLengths::ArrowLengths(const Scene& scene, const Log& log, const Layout& layout) {
+  const System& system = scene.system;
   // The heaviest block's speed when it has all the energy. It may be below the range of a double.
   const Rational most = heaviest_mass(system);
-  if (most > 0) usual_speed_ = root_of(twice_energy(system) / most);
+  if (most > 0) usual_speed_ = root_of(most_twice_energy(scene, log) / most);
   const std::vector<std::size_t> order = from_left_to_right(system);
   double narrowest = layout.shapes[order.front()].width * 2;
   for (std::size_t i = 1; i < order.size(); ++i) {

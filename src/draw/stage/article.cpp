@@ -46,20 +46,18 @@ class ArticleBlocks {
         colors_(context.colors),
         lit_digits_(std::move(lit_digits)),
         base_(context.scene.show.base),
-        endless_(is_endless(context.log) ? std::optional(context.log.last()) : std::nullopt),
-        widths_(context.font,
-                count_characters(base_) + (endless_ ? std::string(kEndlessCount) : "")) {}
+        widths_(context.font, count_characters(base_) + std::string(kEndlessCount)) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     add_blocks(shown, layout_, colors_, items);
-    add_line(shown.state.count, items);
+    add_line(shown.state, items);
   }
 
  private:
   /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
-  void add_line(const Integer& count, std::vector<DrawItem>& items) const {
+  void add_line(const State& state, std::vector<DrawItem>& items) const {
     const std::string text =
-        endless_ && count >= *endless_ ? std::string(kEndlessCount) : count_text(count, base_);
+        state.is_infinite ? std::string(kEndlessCount) : count_text(state.count, base_);
     const std::size_t lit = lit_length(text, lit_digits_);
     const CountLine& line = layout_.count_line;
     Point label = line.label;
@@ -175,24 +173,28 @@ Layout lay_out_article(const LayoutContext& context, const Integer& longest_coun
   return layout;
 }
 
-std::vector<DrawItem> article_walls(const DrawingContext& context) {
-  const Layout& layout = context.layout;
-  const View& view = context.scene.view;
-  const LineWalls walls = line_walls(context.scene.system);
+PathItem article_wall(const Layout& layout, const View& view, const Color& color, double face,
+                      int side) {
   const double line_px = std::min(layout.line_px, kMostWall * layout.scale);
-  const Stroke dashes{context.palette.wall, line_px, kDash * line_px};
-  std::vector<DrawItem> items;
+  const Point top = layout.at(face, to_double(view.y.high));
   // Beside the face, so that the line is whole where a block touches it.
-  const auto add = [&](const Rational& face, double outwards) {
-    const Point top = layout.at(to_double(face), to_double(view.y.high));
-    const double x = top.x + outwards * line_px / 2;
-    const double bottom = layout.at(0, to_double(view.y.low)).y;
-    items.emplace_back(PathItem{nth(ItemId::wall, items.size()),
-                                std::vector<Point>{{x, top.y}, {x, bottom}}, false, std::nullopt,
-                                dashes});
+  const double x = top.x - side * line_px / 2;
+  const double bottom = layout.at(0, to_double(view.y.low)).y;
+  return {ItemId::wall, std::vector<Point>{{x, top.y}, {x, bottom}}, false, std::nullopt,
+          Stroke{color, line_px, kDash * line_px}};
+}
+
+std::vector<DrawItem> article_walls(const DrawingContext& context) {
+  const LineWalls walls = line_walls(context.scene.system);
+  std::vector<DrawItem> items;
+  const auto add = [&](const Rational& face, int side) {
+    PathItem wall = article_wall(context.layout, context.scene.view, context.palette.wall,
+                                 to_double(face), side);
+    wall.id = nth(ItemId::wall, items.size());
+    items.emplace_back(std::move(wall));
   };
-  if (walls.left) add(*walls.left, -1);
-  if (walls.right) add(*walls.right, 1);
+  if (walls.left) add(*walls.left, 1);
+  if (walls.right) add(*walls.right, -1);
   return items;
 }
 

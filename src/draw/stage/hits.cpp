@@ -76,8 +76,7 @@ Contact contact_of(double x_px, double floor_px, double left_px, double right_px
 Color color_of_hit(const MetPair& pair, const System& system,
                    const std::vector<BlockColors>& colors) {
   const auto [first, second] = pair;
-  const bool is_fixed = second >= system.bodies.size() || !system.bodies[second].mass;
-  return colors[is_fixed ? first : second].line;
+  return colors[is_immovable(system, second) ? first : second].line;
 }
 
 HitMarks::HitMarks(const DrawingContext& context, double most_reach_px, double most_glow_px)

@@ -94,7 +94,7 @@ std::optional<std::array<Point, 2>> arrow_in(const DrawList& list, std::size_t b
 /// How long these arrows are.
 class ArrowLengths {
  public:
-  ArrowLengths(const System& system, const Layout& layout);
+  ArrowLengths(const Scene& scene, const Log& log, const Layout& layout);
 
   /// Negative to the left.
   double length_px(double velocity) const;
@@ -120,12 +120,27 @@ struct Hatch {
 inline constexpr Hatch kWallHatch = {style::kWallWidth, 0.02};
 inline constexpr Hatch kFloorHatch = {0.013, 0.03};
 
+/// Colours and widths of a face's line and of the strokes behind it.
+struct FaceStyle {
+  explicit FaceStyle(const DrawingContext& context)
+      : line(context.palette.wall),
+        strokes(context.palette.muted),
+        line_px(context.sizes.wall_line),
+        stroke_px(context.sizes.grid_line),
+        short_side(context.sizes.short_side) {}
+
+  Color line;
+  Color strokes;
+  double line_px;
+  double stroke_px;
+  double short_side;  ///< of the frame, in pixels
+};
+
 /// A hatched wall or floor, its face from one place to the other, with the bodies on the left of
 /// this way.
 /// @param beyond_px  how far the face's line is longer at both ends
-std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
-                                   const DrawingContext& context, const Hatch& hatch,
-                                   double beyond_px = 0);
+std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const FaceStyle& style,
+                                   const Hatch& hatch, double beyond_px = 0);
 
 /// The walls of a layout, and the floor of a line.
 std::vector<DrawItem> stage_walls(const DrawingContext& context);
@@ -133,6 +148,9 @@ std::vector<DrawItem> stage_walls(const DrawingContext& context);
 std::optional<Drawable> moving_walls(const DrawingContext& context);
 /// Those of the article's picture: bodies of width 1 whose faces are where blocks turn back.
 std::vector<DrawItem> article_walls(const DrawingContext& context);
+/// One of them. @param side  1 if blocks are on its right, -1 if on its left
+PathItem article_wall(const Layout& layout, const View& view, const Color& color, double face,
+                      int side);
 
 /// A block with the lines and corners of a layout, in the colours and with the bars of the theme.
 ExposedBlock block_at(const Rect& bounds, const BlockColors& colors, const Layout& layout);

@@ -193,6 +193,25 @@ Rational twice_energy(const System& system) {
   return sum;
 }
 
+Rational most_twice_energy(const Scene& scene, const Log& log) {
+  Rational most = twice_energy(scene.system);
+  if (!is_driven(scene.system) || !has_span(scene, log)) return most;
+  const Span span = span_of(scene, log);
+  constexpr int kInstants = 64;
+  System then = scene.system;
+  for (int i = 0; i <= kInstants; ++i) {
+    const Rational time = span.from + (span.to - span.from) * i / kInstants;
+    const State state = log.state_at(std::max<Rational>(time, 0));
+    for (std::size_t body = 0; body < then.bodies.size(); ++body) {
+      for (const std::size_t axis : {0U, 1U}) {
+        then.bodies[body].velocity.at(axis) = Rational(state.bodies[body].velocity.at(axis));
+      }
+    }
+    most = std::max(most, twice_energy(then));
+  }
+  return most;
+}
+
 Rational heaviest_mass(const System& system) {
   Rational most = 0;
   for (const Body& body : system.bodies) most = std::max(most, body.mass.value_or(0));

@@ -26,7 +26,10 @@ constexpr double kBesideHatch_em = 0.6;
 /// From places along a wall's face and behind it to pixels.
 struct WallMap {
   WallMap(const Point& start, const Point& end)
-      : from(start), length(piblocks::length(end - start)), along((end - start) / length) {}
+      : from(start),
+        to(end),
+        length(piblocks::length(end - start)),
+        along((end - start) / length) {}
 
   Point operator()(double on, double behind) const {
     return from + on * along + behind * turned_right(along);
@@ -38,9 +41,8 @@ struct WallMap {
     return corners.bounds();
   }
 
-  Point end() const { return (*this)(length, 0); }
-
   Point from;
+  Point to;
   double length;
   Point along;
 };
@@ -50,7 +52,7 @@ PlateItem face_plate(ItemId id, const Point& from, const Point& to, const Drawin
   const double width = std::max(context.sizes.wall_line, hatch.width * context.sizes.short_side);
   const WallMap map(from, to);
   return plate_of(id, map.bounds(-1 - beyond_px, map.length + 1 + beyond_px, -1, width + 1),
-                  hatched_face(from, to, context, hatch, beyond_px));
+                  hatched_face(from, to, FaceStyle(context), hatch, beyond_px));
 }
 
 /// Along a wall, from the first place to the second.
@@ -114,57 +116,82 @@ void add_angle(const WallMap& first, const WallMap& second, const DrawingContext
                               context.font.face()});
 }
 
-/// At time 0; nothing if the view does not show it.
-std::optional<WallMap> face_in_plane(const Wall& wall, const DrawingContext& context) {
-  const WallPart part = part_of(wall, context.scene.system.walls, context.scene.view);
+/// Nothing if the view does not show it. @param walls  beside it, which cut it off
+std::optional<WallMap> face_in_plane(const Wall& wall, const std::vector<Wall>& walls,
+                                     const View& view, const Layout& layout) {
+  const WallPart part = part_of(wall, walls, view);
   if (!(part.to > part.from)) return std::nullopt;
   const auto at = [&](double s) {
-    return context.layout.at(to_double(wall.point[0]) + s * to_double(wall.normal[1]),
-                             to_double(wall.point[1]) - s * to_double(wall.normal[0]));
+    return layout.at(to_double(wall.point[0]) + s * to_double(wall.normal[1]),
+                     to_double(wall.point[1]) - s * to_double(wall.normal[0]));
   };
   return WallMap(at(part.from), at(part.to));
 }
 
-/// At time 0, with the bodies on the left of its way.
-WallMap face_on_line(const Wall& wall, const DrawingContext& context) {
-  const Layout& layout = context.layout;
-  const double x = layout.at(to_double(wall.point[0]), 0).x;
-  const Point top{x, layout.top_px() - kWallAbove * context.sizes.short_side};
-  const Point bottom{x, layout.wall_bottom_px};
-  return wall.normal[0] > 0 ? WallMap(top, bottom) : WallMap(bottom, top);
-}
+/// Walls that move, where they are.
+class MovingWalls {
+ public:
+  explicit MovingWalls(const DrawingContext& context)
+      : walls_(context.scene.system.walls),
+        view_(context.scene.view),
+        layout_(context.layout),
+        style_(context),
+        is_plane_(context.is_plane()) {}
 
-/// A wall that moves, as at time 0.
-struct MovingFace {
-  std::vector<DrawItem> items;
-  Point velocity;  ///< in pixels per unit of time
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    std::vector<Wall> walls = walls_;
+    for (Wall& wall : walls) {
+      for (const std::size_t axis : {0U, 1U}) {
+        wall.point.at(axis) += wall.velocity.at(axis) * shown.time;
+      }
+    }
+    std::size_t n = kMostRestingWalls;
+    for (const Wall& wall : walls) {
+      if (!is_moving(wall)) continue;
+      for (DrawItem& item : items_of(wall, walls)) {
+        std::visit([&](auto& any) { any.id = nth(ItemId::wall, n++); }, item);
+        items.push_back(std::move(item));
+      }
+    }
+  }
+
+ private:
+  std::vector<DrawItem> items_of(const Wall& wall, const std::vector<Wall>& walls) const {
+    if (is_plane_) {
+      const auto face = face_in_plane(wall, walls, view_, layout_);
+      if (!face) return {};
+      return hatched_face(face->from, face->to, style_, kWallHatch, style_.line_px / 2);
+    }
+    const double face = to_double(wall.point[0]);
+    const int side = sgn(wall.normal[0]);
+    if (view_.theme == Theme::article) {
+      return {article_wall(layout_, view_, style_.line, face, side)};
+    }
+    const double x = layout_.at(face, 0).x;
+    Point from{x, layout_.top_px() - kWallAbove * style_.short_side};
+    Point to{x, layout_.wall_bottom_px};
+    if (side < 0) std::swap(from, to);
+    return hatched_face(from, to, style_, kWallHatch);
+  }
+
+  std::vector<Wall> walls_;
+  View view_;
+  Layout layout_;
+  FaceStyle style_;
+  bool is_plane_;
 };
 
-DrawItem moved(const DrawItem& item, const Point& by, ItemId id) {
-  DrawItem moved = item;
-  if (auto* const path = std::get_if<PathItem>(&moved)) {
-    std::vector<Point> points(path->points.view().begin(), path->points.view().end());
-    for (Point& point : points) point = point + by;
-    path->points = std::move(points);
-    path->id = id;
-  } else if (auto* const rectangle = std::get_if<RectangleItem>(&moved)) {
-    rectangle->bounds.x += by.x;
-    rectangle->bounds.y += by.y;
-    rectangle->id = id;
-  }
-  return moved;
-}
-
 std::vector<DrawItem> walls_of_plane(const DrawingContext& context) {
-  const std::vector<Wall>& walls = context.scene.system.walls;
+  std::vector<Wall> walls = context.scene.system.walls;
+  std::erase_if(walls, is_moving);
   std::vector<DrawItem> items;
   std::vector<WallMap> seen;
   for (const Wall& wall : walls) {
-    const auto face = is_moving(wall) ? std::nullopt : face_in_plane(wall, context);
+    const auto face = face_in_plane(wall, walls, context.scene.view, context.layout);
     if (!face) continue;
     seen.push_back(*face);
     // The lines of walls that meet overlap.
-    items.emplace_back(face_plate(nth(ItemId::wall, items.size()), face->from, face->end(), context,
+    items.emplace_back(face_plate(nth(ItemId::wall, items.size()), face->from, face->to, context,
                                   kWallHatch, context.sizes.wall_line / 2));
   }
   if (!context.scene.show.has(Overlay::angles)) return items;
@@ -258,13 +285,11 @@ Columns text_columns_between_walls(const DrawingContext& context) {
   return {left, right};
 }
 
-std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
-                                   const DrawingContext& context, const Hatch& hatch,
-                                   double beyond_px) {
-  const Sizes& sizes = context.sizes;
+std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const FaceStyle& style,
+                                   const Hatch& hatch, double beyond_px) {
   const WallMap at(from, to);
-  const double width = hatch.width * sizes.short_side;
-  const double line = sizes.wall_line;
+  const double width = hatch.width * style.short_side;
+  const double line = style.line_px;
   // The face hides the corners of a hatch's end.
   const double nearest = std::min(line / 2, width / 2);
   // In the same direction on all walls and floors that are level or upright.
@@ -273,7 +298,7 @@ std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
     return at(is_level ? at.length - on : on, behind);
   };
   std::vector<DrawItem> items;
-  for (double s = 0; s < at.length + width; s += hatch.step * sizes.short_side) {
+  for (double s = 0; s < at.length + width; s += hatch.step * style.short_side) {
     // At 45 degrees, cut off at the wall's ends.
     const double begin = std::max(nearest, width - s);
     const double end = std::min(width, width + at.length - s);
@@ -281,46 +306,24 @@ std::vector<DrawItem> hatched_face(const Point& from, const Point& to,
     items.emplace_back(
         PathItem{nth(ItemId::wall, items.size()),
                  std::vector<Point>{end_at(s - width + begin, begin), end_at(s - width + end, end)},
-                 false, std::nullopt, Stroke{context.palette.muted, sizes.grid_line}});
+                 false, std::nullopt, Stroke{style.strokes, style.stroke_px}});
   }
   const ItemId id = nth(ItemId::wall, items.size());
   const double last = at.length + beyond_px;
   if (at.along.x == 0 || at.along.y == 0) {
-    items.emplace_back(RectangleItem{id, at.bounds(-beyond_px, last, 0, line), context.palette.wall,
-                                     std::nullopt});
+    items.emplace_back(
+        RectangleItem{id, at.bounds(-beyond_px, last, 0, line), style.line, std::nullopt});
   } else {
     items.emplace_back(PathItem{id,
                                 std::vector<Point>{at(-beyond_px, line / 2), at(last, line / 2)},
-                                false, std::nullopt, Stroke{context.palette.wall, line}});
+                                false, std::nullopt, Stroke{style.line, line}});
   }
   return items;
 }
 
 std::optional<Drawable> moving_walls(const DrawingContext& context) {
-  std::vector<MovingFace> faces;
-  for (const Wall& wall : context.scene.system.walls) {
-    if (!is_moving(wall)) continue;
-    const auto face = context.is_plane() ? face_in_plane(wall, context)
-                                         : std::optional(face_on_line(wall, context));
-    if (!face) continue;
-    const Layout& layout = context.layout;
-    const Point velocity =
-        layout.at(to_double(wall.velocity[0]), to_double(wall.velocity[1])) - layout.at(0, 0);
-    faces.push_back(
-        {hatched_face(face->from, face->end(), context, kWallHatch, context.sizes.wall_line / 2),
-         velocity});
-  }
-  if (faces.empty()) return std::nullopt;
-  return Drawable{
-      [faces = std::move(faces)](const FrameState& shown, std::vector<DrawItem>& items) {
-        std::size_t n = kMostRestingWalls;
-        for (const MovingFace& face : faces) {
-          const Point by = to_double(shown.time) * face.velocity;
-          for (const DrawItem& item : face.items) {
-            items.push_back(moved(item, by, nth(ItemId::wall, n++)));
-          }
-        }
-      }};
+  if (std::ranges::none_of(context.scene.system.walls, is_moving)) return std::nullopt;
+  return Drawable{MovingWalls(context)};
 }
 
 std::vector<DrawItem> stage_walls(const DrawingContext& context) {

@@ -132,9 +132,13 @@ WallLine wall_line(const Wall& wall, const Exponents& exponents) {
 std::vector<std::array<double, 2>> restitutions_of(const System& system) {
   if (is_elastic(system)) return {};
   std::vector<std::array<double, 2>> result;
+  // What is less than 1 stays so, since bounds tell it from 1.
+  const auto rounded = [](const Rational& e) {
+    return e < 1 ? std::min(to_double(e), 1 - 0x1p-53) : 1.0;
+  };
   const auto add = [&](const std::optional<Rational>& own) {
-    result.push_back({to_double(own.value_or(system.restitution)),
-                      to_double(own.value_or(system.wall_restitution))});
+    result.push_back({rounded(own.value_or(system.restitution)),
+                      rounded(own.value_or(system.wall_restitution))});
   };
   for (const Body& body : system.bodies) add(body.restitution);
   for (const Wall& wall : system.walls) add(wall.restitution);

@@ -171,10 +171,11 @@ void Stepper::widen_struck(const Struck& struck, double late) {
 }
 
 void Stepper::report(const Stage& stage, double time) {
+  const bool is_tied = stage.is_tied();
   for (const Touch& touch : stage.touches) {
     SteppedCollision step;
     step.time = {time * system_.units.time, 0};
-    step.is_tied = stage.is_tied();
+    step.is_tied = is_tied;
     step.first = is_disc(touch.second) ? std::min(touch.first, touch.second) : touch.first;
     step.second = std::max(touch.first, touch.second);
     step.first_after = motion_of(step.first, time);

@@ -84,9 +84,9 @@ std::vector<std::string> notes_of(const BoundScript& bound) {
   std::vector<std::string> notes = convention_notes(bound.script);
   if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
     // Others would have to be stepped.
-    const bool is_pair = two_blocks_of(scene->system).has_value();
-    auto note = is_pair ? endless_note(*log_of(*scene)) : std::nullopt;
-    if (note) notes.push_back(std::move(*note));
+    const std::optional<TwoBlocks> pair = two_blocks_of(scene->system);
+    const auto collapse = pair ? collapse_of(*pair) : std::nullopt;
+    if (collapse) notes.push_back(endless_note(scene->system, *collapse));
   }
   std::ranges::move(contrast_notes(bound.script), std::back_inserter(notes));
   return notes;

@@ -52,9 +52,11 @@ export class Bodies {
     this.#draw(facts.bodies);
   }
 
-  /** @param room  a row for one more body, where it has the most room; null if there is none */
+  /** @param room  a row for one more body, where it has the most room; null if there is none, undefined
+   *   while the program has not said it */
   setRoom(room) {
     this.#room = room;
+    if (room === undefined) return;
     this.#add.disabled = !room;
     this.#add.title = room ? "" : "There is no room for another one.";
   }
@@ -108,6 +110,7 @@ export class Bodies {
   #addRow() {
     const {count} = this.#facts;
     const room = this.#room;
+    if (!room) return;
     for (const property of ["position", "velocity", "size", "mass"]) {
       this.#session.edit(`body ${count + 1}.${this.#keyOf(property)}`, [room[property]].flat().join("\t"));
     }

@@ -18,7 +18,7 @@ function isTakenBy(target, key) {
   return target.matches("input[type=checkbox]") && key === " ";
 }
 
-/** Those of clickers go through the page unless the picture fills the screen. */
+/** Keys for full screen only: elsewhere PageUp and PageDown scroll. */
 const isOfLecture = key => key === "b" || key.startsWith("Page");
 
 /** @param undo  takes back the last change */

@@ -64,7 +64,10 @@ export class Lecture {
     byId("settings").inert = true;
     byId("full-screen").focus();
     await document.documentElement.requestFullscreen?.().catch(() => {});
-    if (!this.#isOn) document.exitFullscreen?.().catch(() => {});
+    if (!this.#isOn) {
+      document.exitFullscreen?.().catch(() => {});
+      return;
+    }
     this.update();
     this.#showBar();
   }

@@ -37,7 +37,7 @@ export const sceneAddress = async (text, name) => `#${name ?? `toml=${await pack
  * @param rate  frames and seconds of the film */
 export function placeAddress({instant, frame}, shown, rate) {
   if (instant !== undefined) return `@${encodeURIComponent(instant)}`;
-  if (frame === 0 || shown === null) return "";
+  if (frame === 0) return "";
   const time = shown.state === null ? frame * rate[1] / rate[0] : JSON.parse(shown.state).time;
   return `@${time}`;
 }

@@ -23,11 +23,11 @@ if (options.get("embed") === "1") document.body.classList.add("embedded");
 if (options.get("controls") === "0") document.body.classList.add("bare");
 
 const session = new Session();
-const {scenes, alike = [], ...lists} = await session.started.catch(error => {
+const {scenes, alike, ...lists} = await session.started.catch(error => {
   sayIn(byId("problem"), `This browser cannot run the program: ${error.message}`);
   throw error;
 });
-session.alike = alike;
+session.keysOfOneValue = alike;
 const player = new Player(session);
 const stage = new Stage(session, player);
 const steps = new Steps(session);
@@ -35,7 +35,7 @@ const fields = new Fields(session, lists);
 const bodies = new Bodies(session);
 const readouts = new Readouts();
 offerSharing(() => addressNow(), () => session.text);
-const saving = new Saving(session, () => player.pause());
+const saving = new Saving(session, () => player.isPlaying && player.pause());
 new Lecture(session);
 listenToKeys(() => steps.undo());
 
@@ -55,7 +55,7 @@ let leftOut = [];
 /** The key that was edited last before something was left out, and its edits until then. */
 let cause = null;
 /** What the program had accepted before. */
-let before = {text: "", edits: []};
+let accepted = {text: "", edits: []};
 let announcesNext = false;
 /** The place of the first scene, until it is shown. */
 let firstPlace = null;
@@ -115,8 +115,8 @@ function updateAddress() {
   }, 250);
 }
 
-/** Where a film just happens to be, it is sent from its start. */
-const addressNow = () => address + (player.isPlaced ? placeAddress(session.snapshot.place, shown, session.facts.rate) : "");
+/** A link from a film that is playing begins at its start. */
+const addressNow = () => address + (shown && player.isPlaceChosen ? placeAddress(session.snapshot.place, shown, session.facts.rate) : "");
 
 async function updateScene() {
   const {text} = session;
@@ -128,11 +128,11 @@ async function updateScene() {
 
 session.onOpened = (facts, left) => {
   const {text: words, edits} = session.snapshot;
-  const key = words === before.text ? edits.at(-1)?.[0] : undefined;
+  const key = words === accepted.text ? edits.at(-1)?.[0] : undefined;
   if (left.length === 0) cause = null;
-  else if (left.length > leftOut.length) cause = key && {key, edits: before.edits.filter(([one]) => one === key)};
+  else if (left.length > leftOut.length) cause = key && {key, edits: accepted.edits.filter(([one]) => session.replaces(key, one))};
   leftOut = left;
-  before = session.snapshot;
+  accepted = session.snapshot;
   const name = shippedScene()?.name;
   byId("scenes").value = name ?? "";
   saving.name = name ?? "scene";
@@ -141,7 +141,7 @@ session.onOpened = (facts, left) => {
   showText();
   fields.update(facts);
   bodies.update(facts);
-  bodies.setRoom(null);  // until the program says where it is
+  bodies.setRoom(undefined);
   player.update(facts);
   byId("of-storyboard").hidden = facts.kind === "scene";
   const notes = [facts.filmProblem && `No film: ${facts.filmProblem}`, ...(facts.notes ?? [])];
@@ -160,7 +160,9 @@ async function updateChoices() {
     choicesTimer = setTimeout(updateChoices, 150);
     return;
   }
-  const facts = session.facts;
+  const {facts} = session;
+  // While nobody sees them, they would only keep the program from its frames.
+  if (!byId("more").open && !facts?.bodies) return;
   const choices = await session.choices().catch(() => ({}));
   if (facts !== session.facts) return;
   fields.disable(choices);
@@ -247,8 +249,10 @@ text.addEventListener("blur", showText);
 byId("show-text").addEventListener("click", () => session.facts && open(session.text, session.snapshot.place));
 byId("copy-text").addEventListener("click", event => copy(event.target, text.value, text));
 byId("settings").addEventListener("submit", event => event.preventDefault());
+byId("more").addEventListener("toggle", updateChoices);
 document.addEventListener("click", event => {
   if (!targetOf(event).closest("#menu")) byId("menu").open = false;
+  if (!targetOf(event).closest("#notices, #share")) byId("saved").hidden = byId("shared").hidden = true;
 });
 byId("menu").addEventListener("keydown", event => {
   if (event.key !== "Escape") return;

@@ -12,7 +12,7 @@ export class Player {
   #isSoundOn = false;
   #isPlaying = false;
   /** Whether somebody has chosen the place that is shown. */
-  isPlaced = true;
+  isPlaceChosen = true;
   /** Seconds of the film in a second. */
   #speed = 1;
   /** What is shown, as the program says. */
@@ -113,7 +113,7 @@ export class Player {
     if (this.frames === 0) return;
     const isAtEnd = this.frame === 0 || this.frame >= this.frames - 1;
     const second = isAtEnd ? approximate(this.#session.facts.keys["time.hold-start"]?.[0] ?? "0") : this.frame / this.#rate;
-    this.isPlaced = false;
+    this.isPlaceChosen = false;
     this.#setPlaying(true);
     this.#sound.stop();
     clearTimeout(this.#restart);
@@ -163,7 +163,7 @@ export class Player {
     const frame = Math.floor(this.#second * this.#rate);
     if (frame >= this.frames) {
       this.goTo(this.frames - 1);
-      this.isPlaced = false;
+      this.isPlaceChosen = false;
       return;
     }
     if (frame >= 0 && frame !== this.frame && !this.#session.isBusy) this.#session.show({frame});
@@ -174,7 +174,7 @@ export class Player {
     this.#sound.stop();
     clearTimeout(this.#restart);
     this.#playback = null;
-    this.isPlaced = true;
+    this.isPlaceChosen = true;
     const wasPlaying = this.#isPlaying;
     this.#setPlaying(false);
     if (wasPlaying) this.onPause();

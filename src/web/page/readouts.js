@@ -19,7 +19,7 @@ export class Readouts {
     this.#exact.checked = kept.get("exact") === "on";
     this.#exact.addEventListener("change", () => {
       kept.set("exact", this.#exact.checked ? "on" : "off");
-      this.show(this.#shown, this.#facts);
+      if (this.#shown) this.show(this.#shown, this.#facts);
     });
   }
 

@@ -35,7 +35,9 @@ class FilmMaking {
         progress[i] = done;
         onProgress(progress.reduce((sum, one) => sum + one, 0) / progress.length);
       };
-      return worker.call("render", {name, number: i + 1, count: progress.length});
+      const shard = await worker.call("render", {name, number: i + 1, count: progress.length});
+      if (i > 0) worker.stop();  // the first one joins them
+      return shard;
     });
     const [sound, ...shards] = await Promise.all([hasSound ? this.#encodeSound(source) : null, ...rendering]);
     const bytes = await this.#workers[0].call("join", {name, shards, sound},
@@ -61,7 +63,6 @@ class FilmMaking {
 
   stop() {
     for (const worker of this.#workers) worker.stop();
-    this.#workers = [];
   }
 }
 

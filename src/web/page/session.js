@@ -35,7 +35,7 @@ export class Session {
   onPlaceProblem = words => {};
   onBusy = isBusy => {};
   /** Lists of keys that set one value, from the program. */
-  alike = [];
+  keysOfOneValue = [];
 
   #program = new Program();
   /** What the program has accepted: `edits` are [key, value] in the order in which they were made. */
@@ -51,6 +51,9 @@ export class Session {
   #isNewer = false;
   #isWorking = false;
   #work = Promise.resolve();
+  /** The newest task that answers no wish.
+   * @type {Promise<any>} */
+  #between = Promise.resolve();
   /** What is wrong with edits that are still wanted, and what was with those that were dropped. */
   #refused = new Map();
   #dropped = new Map();
@@ -98,7 +101,7 @@ export class Session {
     this.restore({text, edits: [], place});
   }
 
-  /** The same, while what is wrong with the text that was wanted stays said. */
+  /** The same, but the message about the refused text stays. */
   openInstead(text) {
     const problems = this.#problemsOfText;
     this.open(text, {frame: 0});
@@ -117,7 +120,7 @@ export class Session {
     if (isTyped) this.#typed.add(key);
     else this.#typed.delete(key);
     for (const other of this.refusedKeys) {
-      if (this.#replaces(key, other)) this.#refused.delete(other);
+      if (this.replaces(key, other)) this.#refused.delete(other);
     }
     this.#want({...this.#wanted, edits: this.#with(this.#wanted.edits, [[key, value]])});
   }
@@ -150,10 +153,8 @@ export class Session {
   }
 
   /** What cannot be added to the picture, and why. */
-  async choices() {
-    await this.#work;
-    await this.#haveScene();
-    return this.#program.call("choices");
+  choices() {
+    return this.#callBetween("choices");
   }
 
   /** Gives back the memory of a picture that is on the canvas. */
@@ -162,11 +163,8 @@ export class Session {
   }
 
   /** A file of what is shown. */
-  async save(name) {
-    await this.#work;
-    this.#replaceIfBroken();
-    await this.#haveScene();
-    return this.#program.call("save", {name});
+  save(name) {
+    return this.#callBetween("save", {name});
   }
 
   /** Ends what the program does, and goes on with the scene that it has accepted. */
@@ -179,13 +177,13 @@ export class Session {
 
   /** Whether an edit of one key takes the place of one of another. A key that also sets something else
    * stays. */
-  #replaces(key, other) {
+  replaces(key, other) {
     if (key === other) return true;
-    const lists = this.alike.filter(list => list.includes(other));
+    const lists = this.keysOfOneValue.filter(list => list.includes(other));
     return lists.length > 0 && lists.every(list => list.includes(key));
   }
   #with(edits, newer) {
-    return [...edits.filter(([key]) => !newer.some(([by]) => this.#replaces(by, key))), ...newer];
+    return [...edits.filter(([key]) => !newer.some(([by]) => this.replaces(by, key))), ...newer];
   }
   /** A text and its edits. */
   #whole({text, edits}) {
@@ -231,12 +229,23 @@ export class Session {
     this.onPicture(picture);
   }
 
+  /** A task that answers no wish: nothing but Stop ends it. */
+  async #callBetween(task, details = {}) {
+    await this.#work;
+    this.#replaceIfBroken();
+    await this.#haveScene();
+    this.#between = this.#program.call(task, details);
+    return this.#between;
+  }
+
   async #call(task, details) {
-    await this.#program.started;
+    const program = this.#program;  // one that Stop has ended stays ended
+    await program.started;
+    await this.#between.catch(() => {});
     this.#since = performance.now();
     try {
       if (task === "show") await this.#haveScene();
-      return await this.#program.call(task, details);
+      return await program.call(task, details);
     } finally {
       this.#since = null;
     }

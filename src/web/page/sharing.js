@@ -1,5 +1,5 @@
 // Links to the scene, and the page inside other pages.
-// In: what is behind the page's address for the scene that is shown. Out: a link, shared or copied; words
+// In: the fragment of the address for what is shown. Out: a link, shared or copied; words
 // for an iframe.
 
 import {byId} from "./dom.js";

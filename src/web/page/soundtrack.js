@@ -8,11 +8,11 @@ const PIECE = 24000;
 const MOST_WAITING = 4;
 
 /** WebKitGTK 2.50 crashes when decoded samples are read, and without them the delay of its AAC is unknown. */
-const canMeasure = !/Linux.*AppleWebKit(?!.*Chrome)/.test(navigator.userAgent);
+const canReadDecodedSound = !/Linux.*AppleWebKit(?!.*Chrome)/.test(navigator.userAgent);
 
 /** Best first: older players know AAC alone in an MP4. */
 const CODECS = [
-  ...canMeasure ? [{codec: "mp4a.40.2", packetSamples: 1024, delay: measureDelay}] : [],
+  ...canReadDecodedSound ? [{codec: "mp4a.40.2", packetSamples: 1024, delay: measureDelay}] : [],
   // The pre-skip of its header.
   {codec: "opus", packetSamples: 960, delay: (config, header) => header[10] + 256 * header[11]},
 ];
@@ -26,7 +26,7 @@ const bytesOf = source => ArrayBuffer.isView(source)
 const timestampOf = pair => Math.round(pair / RATE_hz * 1e6);
 
 /** Encodes pieces, left and right in turn. @returns packets, and the description of the decoder
- * @throws DOMException if the encoder fails, also by itself: it is closed then */
+ * @throws DOMException if the encoder refuses the samples, or breaks down later */
 async function encode(config, pieces) {
   const packets = [];
   let description;
