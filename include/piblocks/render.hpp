@@ -136,10 +136,11 @@ Rendered join(const std::vector<std::string>& parts, const std::string& output,
 /// The picture is that of the film's first frame that shows the instant. In a storyboard an instant
 /// is a second of its video, and "last" is the last frame.
 /// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.
+/// @return  what a user should know of a scene's run until then, one line each
 /// @throws SceneError if problems_of() the scene or storyboard is not empty; UsageError, DrawError,
 ///         MediaError, IoError, SimulationError, Interrupted
-void render_still(const Script& script, const Instant& instant, const std::string& output,
-                  const std::stop_token& stop = {});
+std::vector<std::string> render_still(const Script& script, const Instant& instant,
+                                      const std::string& output, const std::stop_token& stop = {});
 
 /// Most pictures of a sheet.
 inline constexpr int kMaxSheetPictures = 200;
@@ -173,10 +174,12 @@ using SheetInstants = std::variant<std::vector<Instant>, Spread>;
 /// @param on_progress  called after each picture.
 /// @param stop         asks to give up: Interrupted is thrown after a picture, or when the page is
 ///                     drawn.
+/// @return  as render_still(), until the latest instant
 /// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
 ///         IoError, SimulationError, Interrupted
-void render_sheet(const Scene& scene, const SheetInstants& instants, const std::string& output,
-                  const OnProgress& on_progress = {}, const std::stop_token& stop = {});
+std::vector<std::string> render_sheet(const Scene& scene, const SheetInstants& instants,
+                                      const std::string& output, const OnProgress& on_progress = {},
+                                      const std::stop_token& stop = {});
 
 /// The frames of a film as pixels, in any order. Only what differs from the frame painted before
 /// is painted; the pixels are those that render() encodes. Used by one thread at a time; different

@@ -52,7 +52,7 @@ struct System {
   /// they have when they part; 0 (they stay together) … 1 (elastic).
   Rational restitution = 1;       ///< of two bodies that collisions move
   Rational wall_restitution = 1;  ///< of a body and something immovable
-  /// Nothing: at once for discs, in order for blocks, which have no other way.
+  /// Nothing: at once for discs, in order for blocks.
   std::optional<Contacts> contacts = {};
 };
 

@@ -39,7 +39,7 @@ void run_render(const Command& options, const SceneOptions& scene) {
   report.finish(rendered.aftermath);
   if (job.profile) print_profile(rendered);
   if (quiet) return;
-  for (const std::string& note : rendered.notes) say("piblocks: note: {}\n", note);
+  note_all(rendered.notes);
   note_frame_rate(options, view_of(job.script).frame_rate);
   note_convention(job.script);
   note_contrast(job.script);

@@ -78,7 +78,7 @@ void run_still(const Command& options, const SceneOptions& scene_options) {
   scene_options.check_output(script);
   const StopOnSignals signals;
   const std::string output = output_of(options);
-  render_still(script, *options.value("--at", parse_instant), output, signals.token());
+  note_all(render_still(script, *options.value("--at", parse_instant), output, signals.token()));
   note_convention(script);
   note_contrast(script);
   if (has_ending(output, ".svg") || has_ending(output, ".pdf")) note_sharp(script);
@@ -92,9 +92,9 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
   const StopOnSignals signals;
   ProgressReport report(output_of(options), false,
                         {.unit = "pictures", .delay = std::chrono::seconds(1)});
-  render_sheet(
+  note_all(render_sheet(
       scene, instants, output_of(options),
-      [&](const Progress& progress) { report.update(progress); }, signals.token());
+      [&](const Progress& progress) { report.update(progress); }, signals.token()));
   note_convention(scene);
   note_contrast(scene);
   note_sharp(scene);

@@ -213,13 +213,13 @@ void add_engine(Command& command) {
                     "events: the event loop, in double precision");
 }
 
-void note_convention(const Script& script) {
-  for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
+void note_all(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) say("piblocks: note: {}\n", note);
 }
 
-void note_contrast(const Script& script) {
-  for (const std::string& note : contrast_notes(script)) say("piblocks: note: {}\n", note);
-}
+void note_convention(const Script& script) { note_all(convention_notes(script)); }
+
+void note_contrast(const Script& script) { note_all(contrast_notes(script)); }
 
 void note_sharp(const Script& script) {
   const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };

@@ -74,6 +74,8 @@ class SceneOptions {
 /// Adds --engine.
 void add_engine(Command& command);
 
+/// Each as a line on standard error.
+void note_all(const std::vector<std::string>& notes);
 /// Says on standard error which of two equally good counts is shown, if all collisions of a run
 /// happen at once: their number then depends on a convention.
 /// @throws SceneError if problems_of() of the system is not empty.

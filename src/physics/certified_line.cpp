@@ -44,10 +44,12 @@ double speed_rounding(const LineElement& element) {
 
 }  // namespace
 
-CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Rational& begin)
+CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Rational& begin,
+                             bool is_at_once)
     : pairs_(elements.size() - 1),
       next_(std::max<std::size_t>(pairs_.size(), 1), Earlier{*this}),
-      begin_(to_time(begin)) {
+      begin_(to_time(begin)),
+      is_at_once_(is_at_once) {
   for (const LineElement& exact : elements) {
     Element& element = elements_.emplace_back();
     element.id = exact.id;
@@ -170,8 +172,10 @@ void CertifiedLine::check_order(std::size_t pair, double clock) {
   if (pair > 0) other = std::min(other, earliest(pair - 1, approach(pair - 1)));
   if (pair + 1 < pairs_.size()) other = std::min(other, earliest(pair + 1, approach(pair + 1)));
   const bool is_vague = is_lossy_ && tolerance > kTimeError * (begin_.hi + clock);
-  if (is_vague || other <= clock + tolerance)
+  const bool is_next_stage = is_at_once_ && flight <= tolerance;
+  if (is_vague || is_next_stage || other <= clock + tolerance) {
     return end_certainty(std::min(clock - tolerance, other));
+  }
   // Reflected while a rest of the gap is left, they are off by twice this rest at most.
   position_error_ += 2 * rest / p.gap_per_norm * kSpare;
 }

@@ -19,8 +19,10 @@ namespace piblocks {
 /// from the instant at which the line begins.
 class CertifiedLine {
  public:
-  /// @param elements  as ExactLine has them just after the collision at `begin`.
-  CertifiedLine(std::span<const LineElement> elements, const Rational& begin);
+  /// @param elements    as ExactLine has them just after the collision at `begin`.
+  /// @param is_at_once  ends certainty where contacts at once might differ from those in order,
+  ///                    which all are here
+  CertifiedLine(std::span<const LineElement> elements, const Rational& begin, bool is_at_once);
   CertifiedLine(const CertifiedLine&) = delete;
   CertifiedLine& operator=(const CertifiedLine&) = delete;
   ~CertifiedLine() = default;
@@ -86,6 +88,7 @@ class CertifiedLine {
   double clock_ = 0;
   double certain_until_ = kNever;  // on the clock
   bool is_lossy_ = false;
+  bool is_at_once_;
   // Norms of the errors of all positions and of all velocities, each weighted by the root of its
   // mass; and the larger ones that doubts have been predicted with.
   double position_error_ = 0;

@@ -24,6 +24,46 @@ void collide(LineElement& left, LineElement& right) {
   right.velocity += velocity_change(closing, share_of_change(right.mass, left.mass), e);
 }
 
+/// How much velocity an impulse of 1 gives it.
+Rational mobility(const LineElement& element) {
+  return element.mass ? Rational(1 / *element.mass) : Rational(0);
+}
+
+/// The impulses J with which neighbours that approach part, all at once: G J = (1 + e) c, as
+/// src/physics/README.md has it. G has entries beside its diagonal only for pairs that share a
+/// block, and these are negative. So no J is, and elimination needs no pivots.
+/// @param pairs  in the order of the line
+/// @return nothing if G is singular: two that no collision moves squeeze what is between them
+std::optional<std::vector<Rational>> impulses_at_once(const std::vector<LineElement>& elements,
+                                                      const std::vector<std::size_t>& pairs) {
+  std::vector<Rational> impulses;
+  std::vector<Rational> pivots;
+  // What the pair before, if it shares a block, takes from this one for each unit of its own.
+  const auto coupling = [&](std::size_t k) {
+    const bool is_shared = k > 0 && k < pairs.size() && pairs[k - 1] + 1 == pairs[k];
+    return is_shared ? mobility(elements[pairs[k]]) : Rational(0);
+  };
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const LineElement& left = elements[pairs[k]];
+    const LineElement& right = elements[pairs[k] + 1];
+    Rational pivot = mobility(left) + mobility(right);
+    Rational change = (1 + left.restitution) * (left.velocity - right.velocity);
+    if (k > 0) {
+      const Rational factor = coupling(k) / pivots.back();
+      pivot -= factor * coupling(k);
+      change += factor * impulses.back();
+    }
+    if (pivot == 0) return std::nullopt;
+    pivots.push_back(pivot);
+    impulses.push_back(change);
+  }
+  for (std::size_t k = pairs.size(); k-- > 0;) {
+    if (k + 1 < pairs.size()) impulses[k] += coupling(k + 1) * impulses[k + 1];
+    impulses[k] /= pivots[k];
+  }
+  return impulses;
+}
+
 /// The wall on one side of all blocks that is next to them; nothing if there is none.
 /// @param sign  of the normal: 1 for walls on the left
 std::optional<LineElement> nearest_wall(const System& system, int sign) {
@@ -74,7 +114,8 @@ SteppedCollision step_of(const Time& time, std::uint32_t left_id, const Motion& 
 ExactLine::ExactLine(const System& system)
     : elements_(elements_of(system)),
       meetings_(elements_.size() - 1),
-      next_(std::max<std::size_t>(meetings_.size(), 1), Earlier{*this}) {
+      next_(std::max<std::size_t>(meetings_.size(), 1), Earlier{*this}),
+      is_at_once_(are_at_once(system)) {
   for (std::size_t pair = 0; pair < meetings_.size(); ++pair) predict(pair);
   if (!meetings_.empty()) next_.replay_all();
 }
@@ -100,37 +141,88 @@ void ExactLine::predict(std::size_t pair) {
 }
 
 std::optional<SteppedCollision> ExactLine::step() {
-  if (meetings_.empty()) return std::nullopt;
-  const std::size_t pair = next_.winner();
-  if (!meetings_[pair]) return std::nullopt;
-  time_ = *meetings_[pair];
-  LineElement& left = elements_[pair];
-  LineElement& right = elements_[pair + 1];
+  if (pending_.empty() && !meet()) return std::nullopt;
+  SteppedCollision step = std::move(pending_.back());
+  pending_.pop_back();
+  return step;
+}
+
+/// @return false if there is no further meeting
+bool ExactLine::meet() {
+  if (meetings_.empty() || !meetings_[next_.winner()]) return false;
+  take_stage();
   bits_ = bits_of(time_);
-  for (LineElement* const element : {&left, &right}) {
-    element->position = element->position_at(time_);
-    element->since = time_;
+  if (stage_.size() == 1 || !strike_at_once()) {
+    put_back_all_but_first();
+    collide(elements_[stage_[0]], elements_[stage_[0] + 1]);
+    report(stage_[0]);
   }
-  collide(left, right);
+  std::ranges::reverse(pending_);
+  for (const std::size_t pair : stage_) {
+    for (const std::size_t beside : {pair - 1, pair + 1}) {
+      if (beside >= meetings_.size() || is_in_stage(beside)) continue;
+      predict(beside);
+      next_.replay(beside);
+    }
+  }
+  return true;
+}
+
+/// The next pair, and of contacts at once all others that meet when it does. Those apart from it do
+/// not change each other's velocities.
+void ExactLine::take_stage() {
+  time_ = *meetings_[next_.winner()];
+  stage_.clear();
+  do {
+    const std::size_t pair = next_.winner();
+    stage_.push_back(pair);
+    for (const std::size_t n : {pair, pair + 1}) {
+      elements_[n].position = elements_[n].position_at(time_);
+      elements_[n].since = time_;
+    }
+    meetings_[pair].reset();
+    next_.replay(pair);
+    if (!is_at_once_ || is_jam(pair)) return;
+  } while (is_due(next_.winner()) && !is_jam(next_.winner()));
+}
+
+void ExactLine::put_back_all_but_first() {
+  while (stage_.size() > 1) {
+    meetings_[stage_.back()] = time_;
+    next_.replay(stage_.back());
+    stage_.pop_back();
+  }
+}
+
+/// Gives all pairs of the stage their impulses at once. @return false, and changes nothing, if
+/// these are not determined
+bool ExactLine::strike_at_once() {
+  std::vector<std::size_t> pairs = stage_;
+  std::ranges::sort(pairs);
+  const auto impulses = impulses_at_once(elements_, pairs);
+  if (!impulses) return false;
+  for (const std::size_t pair : stage_) {
+    const auto number = std::ranges::lower_bound(pairs, pair) - pairs.begin();
+    const Rational& impulse = (*impulses)[static_cast<std::size_t>(number)];
+    elements_[pair].velocity -= impulse * mobility(elements_[pair]);
+    elements_[pair + 1].velocity += impulse * mobility(elements_[pair + 1]);
+    report(pair);
+  }
+  return true;
+}
+
+void ExactLine::report(std::size_t pair) {
+  const LineElement& left = elements_[pair];
+  const LineElement& right = elements_[pair + 1];
   for (const LineElement* const element : {&left, &right}) {
     bits_ = std::max({bits_, bits_of(element->position), bits_of(element->velocity)});
-  }
-  const bool is_tied = is_due(pair + 1) || (pair > 0 && is_due(pair - 1));
-  meetings_[pair].reset();
-  next_.replay(pair);
-  if (pair > 0) {
-    predict(pair - 1);
-    next_.replay(pair - 1);
-  }
-  if (pair + 1 < meetings_.size()) {
-    predict(pair + 1);
-    next_.replay(pair + 1);
   }
   SteppedCollision step =
       step_of(to_time(time_), left.id, motion_of(left), right.id, motion_of(right));
   step.exact_time = time_;
-  step.is_tied = is_tied;
-  return step;
+  const auto is_now = [&](std::size_t beside) { return is_due(beside) || is_in_stage(beside); };
+  step.is_tied = is_now(pair + 1) || (pair > 0 && is_now(pair - 1));
+  pending_.push_back(step);
 }
 
 }  // namespace piblocks

@@ -6,6 +6,7 @@
 #include <piblocks/contact.hpp>
 #include <piblocks/system.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,8 @@ class ExactLine {
   /// The next collision; none if there will be no more. If two that no collision moves meet, this
   /// is a step, too, which changes nothing.
   std::optional<SteppedCollision> step();
+  /// Whether elements() are already those after further steps, which happen at once with the last.
+  bool is_within_stage() const noexcept { return !pending_.empty(); }
   /// The longest number of the last step, numerator and denominator together.
   std::size_t bits() const noexcept { return bits_; }
   const std::vector<LineElement>& elements() const noexcept { return elements_; }
@@ -61,6 +64,15 @@ class ExactLine {
   };
 
   void predict(std::size_t pair);
+  bool meet();
+  void take_stage();
+  bool strike_at_once();
+  void put_back_all_but_first();
+  void report(std::size_t pair);
+  bool is_jam(std::size_t pair) const { return !elements_[pair].mass && !elements_[pair + 1].mass; }
+  bool is_in_stage(std::size_t pair) const {
+    return std::ranges::find(stage_, pair) != stage_.end();
+  }
   /// Whether there is this pair and it meets now.
   bool is_due(std::size_t pair) const {
     return pair < meetings_.size() && meetings_[pair] && *meetings_[pair] == time_;
@@ -69,6 +81,9 @@ class ExactLine {
   std::vector<LineElement> elements_;
   std::vector<std::optional<Rational>> meetings_;  // of elements n and n + 1: when they meet
   Tournament<Earlier> next_;
+  bool is_at_once_;
+  std::vector<std::size_t> stage_;         // pairs that collide now, in their order
+  std::vector<SteppedCollision> pending_;  // of the stage, the next one last
   Rational time_ = 0;
   std::size_t bits_ = 0;
 };

@@ -1,7 +1,5 @@
 #include "physics/impact.hpp"
 
-#include <piblocks/contact.hpp>
-
 #include <array>
 #include <cmath>
 #include <utility>
@@ -42,28 +40,17 @@ double usual_impulse(const System& system) {
   return 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
 }
 
-/// If elastic, both velocities along the line between them are reversed as seen from their common
-/// centre of mass, so that what they are afterwards says how large the impulse was.
+/// From the velocities of the lighter one: the change of the other may be lost in rounding.
 double impulse_of(const System& system, const Collision& collision) {
-  const auto mass = [&](std::uint32_t id) -> std::optional<double> {
-    if (is_immovable(system, id)) return std::nullopt;
-    return to_double(*system.bodies[id].mass);
+  const auto mass = [&](std::uint32_t id) {
+    return is_immovable(system, id) ? HUGE_VAL : to_double(*system.bodies[id].mass);
   };
-  std::optional<double> own = mass(collision.first);
-  std::optional<double> other = mass(collision.second);
-  if (restitution_of(system, collision.first, collision.second) != 1) {
-    // The change of the heavier one may be lost in rounding.
-    const bool is_first = own && !(other && *other < *own);
-    const auto& before = is_first ? collision.first_before : collision.second_before;
-    const auto& after = (is_first ? collision.first_after : collision.second_after).velocity;
-    const double x = after[0] - before[0];
-    const double y = after[1] - before[1];
-    return (is_first ? *own : *other) * std::sqrt(x * x + y * y);
-  }
-  if (!own) std::swap(own, other);
-  const double speed =
-      parting_speed(system, collision.second, collision.first_after, collision.second_after);
-  return *own * velocity_change(speed, share_of_change(own, other));
+  const bool is_first = mass(collision.first) <= mass(collision.second);
+  const auto& before = is_first ? collision.first_before : collision.second_before;
+  const auto& after = (is_first ? collision.first_after : collision.second_after).velocity;
+  const double x = after[0] - before[0];
+  const double y = after[1] - before[1];
+  return mass(is_first ? collision.first : collision.second) * std::sqrt(x * x + y * y);
 }
 
 bool is_at_wall(const System& system, const Collision& collision) {

@@ -115,8 +115,6 @@ std::vector<Problem> problems_of(const System& system) {
   for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, is_pair, problems);
   if (system.dimensions == 1) check_sides(system, problems);
   check_restitution(system, problems);
-  problems.require(system.dimensions == 2 || !are_at_once(system), "contacts",
-                   "= at-once: is for discs; blocks collide in order");
   const bool can_move =
       std::ranges::any_of(system.bodies, [](const Body& body) { return body.mass.has_value(); });
   problems.require(can_move, "body", "all have infinite mass: nothing can move");

@@ -17,6 +17,7 @@
 #include "render/film.hpp"
 #include "render/renderings.hpp"
 #include "render/sheet_captions.hpp"
+#include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -155,6 +156,16 @@ std::vector<CaptionedPicture> pictures_of(const FilmRun& run, const std::vector<
   return pictures;
 }
 
+/// Until the latest of these.
+std::vector<std::string> notes_until(const Log& log, const std::vector<Instant>& instants) {
+  Integer last;
+  for (const Instant& instant : instants) {
+    last = std::max(last, log.count_at(time_of(instant, log)));
+  }
+  const auto note = tie_note(log, last);
+  return note ? std::vector{*note} : std::vector<std::string>();
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& stop) {
@@ -176,11 +187,18 @@ DrawList still_picture(const Script& script, const Instant& instant, const std::
                           : still_picture(Film(script, {FilmUse::pictures, stop}), instant);
 }
 
-void render_still(const Script& script, const Instant& instant, const std::string& output,
-                  const std::stop_token& stop) {
+std::vector<std::string> render_still(const Script& script, const Instant& instant,
+                                      const std::string& output, const std::stop_token& stop) {
   Draw* const draw = drawing_for(output, draw_png, "still", ".png, .svg, .pdf");
   OutputFile file(output);
-  write_picture(file, draw(still_picture(script, instant, stop), stop), stop);
+  const auto* const scene = std::get_if<Scene>(&script);
+  if (scene == nullptr) {
+    write_picture(file, draw(still_picture(script, instant, stop), stop), stop);
+    return {};
+  }
+  const FilmRun run = run_of(*scene, stop);
+  write_picture(file, draw(run.still(instant), stop), stop);
+  return notes_until(run.log(), {instant});
 }
 
 std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
@@ -195,20 +213,22 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   return pictures_of(run_of(scene, stop), instants, on_progress, stop);
 }
 
-void render_sheet(const Scene& scene, const SheetInstants& instants, const std::string& output,
-                  const OnProgress& on_progress, const std::stop_token& stop) {
+std::vector<std::string> render_sheet(const Scene& scene, const SheetInstants& instants,
+                                      const std::string& output, const OnProgress& on_progress,
+                                      const std::stop_token& stop) {
   Draw* const draw = drawing_for(output, draw_page_png, "sheet", ".pdf, .png, .svg");
   const auto* const named = std::get_if<std::vector<Instant>>(&instants);
   if (named != nullptr) check_count(named->size());
   const FilmRun run = run_of(scene, stop);
   OutputFile file(output);
-  std::vector<CaptionedPicture> pictures = pictures_of(
-      run, named != nullptr ? *named : spread_over(scene, run.log(), std::get<Spread>(instants)),
-      on_progress, stop);
+  const std::vector<Instant> shown =
+      named != nullptr ? *named : spread_over(scene, run.log(), std::get<Spread>(instants));
+  std::vector<CaptionedPicture> pictures = pictures_of(run, shown, on_progress, stop);
   const bool is_png = draw == draw_page_png;
   const DrawList page = arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
                                 is_png ? kPageHeight_px : kPageHeight_pt);
   write_picture(file, draw(page, stop), stop);
+  return notes_until(run.log(), shown);
 }
 
 }  // namespace piblocks

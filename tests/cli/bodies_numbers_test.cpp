@@ -15,14 +15,18 @@ TEST_F(BodiesCli, SayWhenTheOrderOfPairsDecides) {
   const std::string note =
       "piblocks: note: at t = 2 a body has several collisions at once: those of movable bodies "
       "come first, in the order of the file; another order may end otherwise\n";
-  for (const Arguments& command : {Arguments{"count", "tie.toml"}, Arguments{"log", "tie.toml"},
-                                   Arguments{"state", "tie.toml", "--at", "3"}}) {
+  for (const Arguments& command :
+       {Arguments{"count", "tie.toml"}, Arguments{"log", "tie.toml"},
+        Arguments{"state", "tie.toml", "--at", "3"},
+        Arguments{"still", "tie.toml", "--at", "3", "-o", "tie.png"},
+        Arguments{"sheet", "tie.toml", "--at", "1,3", "-o", "tie.pdf"}}) {
     const CommandResult result = piblocks(command);
     EXPECT_EQ(result.exit_code, 0) << command[0];
     EXPECT_EQ(result.err, note) << command[0];
   }
   EXPECT_TRUE(piblocks({"state", "tie.toml", "--at", "1"}).err.empty()) << "not yet";
   EXPECT_TRUE(piblocks({"log", "tie.toml", "--to", "1"}).err.empty()) << "not yet";
+  EXPECT_TRUE(piblocks({"still", "tie.toml", "--at", "1", "-o", "tie.png"}).err.empty());
   const CommandResult film =
       piblocks({"render", "tie.toml", "--size", "160x90", "--fps", "4", "-o", "tie.gif"});
   EXPECT_EQ(film.exit_code, 0);

@@ -148,5 +148,31 @@ TEST(DrivenLine, NothingMovesTwoAsideThatNoCollisionMoves) {
       "body 2 and the left wall meet at t = 3, and neither can give way"));
 }
 
+/// In the order of pairs the left one is hit back twice.
+TEST(DrivenLine, ABlockThatIsHitFromBothSidesAtOnceStays) {
+  System row{.bodies = {block(0, 1), block(3, 0, 2), block(6, -1)}};
+  for (const Rational& e : {Rational(1), Rational(1, 2), Rational(0)}) {
+    row.restitution = e;
+    row.contacts = Contacts::at_once;
+    const double part = to_double(e);
+    EXPECT_EQ(velocities_at_end(row), (std::vector<double>{-part, 0, part}));
+    row.contacts = Contacts::in_order;
+    if (e > 0) {
+      EXPECT_NE(velocities_at_end(row)[1], 0);
+    }
+  }
+}
+
+/// Each of the two contacts is a collision with an impulse of its own.
+TEST(DrivenLine, ContactsAtOnceShowTheirImpulses) {
+  System row{.bodies = {block(0, 3), block(3, 0, 2), block(6, -1)}, .contacts = Contacts::at_once};
+  const auto log = make_log(row);
+  const double left = log->impact(CollisionKind::blocks, 1, 1)->impulse;
+  const double right = log->impact(CollisionKind::blocks, 2, 2)->impulse;
+  const std::vector<double> after = velocities_at_end(row);
+  EXPECT_NEAR(after[0], 3 - left, 1e-15);
+  EXPECT_NEAR(after[2], right - 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace piblocks

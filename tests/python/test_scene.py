@@ -226,3 +226,5 @@ def test_notes_tell_of_conventions():
     corner = Scene(blue_position=0.5, red_mass=100, red_position=3)
     assert len(corner.notes) == 1 and "by convention" in corner.notes[0]
     assert ARTICLE.notes == ()
+    assert any("collide at once" in note for note in Scene.shipped("rack").notes)
+    assert Scene.shipped("gas").notes == ()

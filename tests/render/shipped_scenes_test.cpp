@@ -3,6 +3,7 @@
 #include <piblocks/script.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -159,6 +160,91 @@ TEST(ShippedScenes, ShowTheNumbersThatTheyName) {
   for (const char* number : {"3", "30", "31", "314", "31415", "110010", "31415926535897932384"}) {
     EXPECT_TRUE(all_named.contains(number)) << number << " is named by no scene";
   }
+}
+
+Film shipped(const std::string& name) { return film_of_file(shipped_scenes().at(name)); }
+
+std::vector<double> last_velocities(const Log& log) {
+  std::vector<double> velocities;
+  for (const Motion& motion : log.state_at(log.time_after(log.last())).bodies) {
+    velocities.push_back(motion.velocity[0]);
+  }
+  return velocities;
+}
+
+TEST(ShippedScenes, CartsPartWithTheirShareOfTheSpeed) {
+  const Film film = shipped("carts");
+  const auto runs = film.segments()[0].segment.runs();
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(last_velocities(runs[0].log()), (std::vector<double>{-1, 1}));
+  EXPECT_EQ(last_velocities(runs[1].log()), (std::vector<double>{-0.5, 0.5}));
+  EXPECT_EQ(last_velocities(runs[2].log()), (std::vector<double>{0, 0}));
+}
+
+/// Each ball is thrown up by the one below, which is a thousand times as heavy.
+TEST(ShippedScenes, TheStackThrowsItsTopBall) {
+  const Film film = shipped("stack");
+  std::vector<double> expected;
+  double thrown = 1;
+  for (int ball = 0; ball < 3; ++ball) {
+    expected.push_back((999 * thrown - 2) / 1001);
+    thrown = (999 + 2000 * thrown) / 1001;
+  }
+  expected.push_back(thrown);
+  const std::vector<double> velocities = last_velocities(film.scene()->runs()[0].log());
+  ASSERT_EQ(velocities.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(velocities[i], expected[i], 1e-12) << i;
+  }
+}
+
+/// Each hit of a piston that comes in at 1/2 makes the atom faster by 1.
+TEST(ShippedScenes, ThePistonHeatsItsGas) {
+  const Film film = shipped("piston");
+  const Log& log = film.scene()->runs()[0].log();
+  double speed = 1;
+  for (Integer k = 1; k <= log.last(); ++k) {
+    const Collision hit = log.collision(k);
+    if (hit.second == 2) speed += 1;
+    EXPECT_EQ(std::abs(hit.first_after.velocity[0]), speed) << k;
+  }
+  EXPECT_EQ(speed, 4);
+}
+
+TEST(ShippedScenes, TheRackGoesOffSymmetrically) {
+  const Film film = shipped("rack");
+  const State state = film.scene()->runs()[0].log().state_at(3);
+  for (const Motion& ball : state.bodies) {
+    const auto is_image = [&](const Motion& other) {
+      return std::hypot(ball.position[0] - other.position[0],
+                        ball.position[1] + other.position[1]) < 1e-9;
+    };
+    EXPECT_EQ(std::ranges::count_if(state.bodies, is_image), 1);
+  }
+}
+
+/// How unevenly bodies lie in cells of 4 by 4: variance over mean of their numbers, which is 1 if
+/// they lie at random.
+double unevenness(const State& state) {
+  std::array<double, 12> numbers = {};
+  for (const Motion& body : state.bodies) {
+    const auto cell = [](double place) { return static_cast<std::size_t>(place / 4); };
+    ++numbers.at(3 * cell(body.position[0]) + cell(body.position[1]));
+  }
+  const double mean = double(state.bodies.size()) / double(numbers.size());
+  double squares = 0;
+  for (const double number : numbers) squares += (number - mean) * (number - mean);
+  return squares / double(numbers.size()) / mean;
+}
+
+TEST(ShippedScenes, TheGranularGasComesTogether) {
+  const Film film = shipped("granular");
+  const Log& log = film.scene()->runs()[0].log();
+  EXPECT_LT(unevenness(log.state_at(0)), 0.1);
+  EXPECT_GT(unevenness(log.state_at(59)), 3);
+  System elastic = log.system();
+  elastic.restitution = 1;
+  EXPECT_LT(unevenness(make_log(elastic, 60)->state_at(59)), 1.5);
 }
 
 /// The lines of text of a picture, by what they belong to and their baseline in their part of it.

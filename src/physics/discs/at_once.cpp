@@ -246,15 +246,12 @@ bool widen(DiscSystem& system, const Stage& stage) {
   return true;
 }
 
-void apply(DiscSystem& system, const Stage& stage) {
-  for (std::size_t i = 0; i < stage.touches.size(); ++i) {
-    const Touch& touch = stage.touches[i];
-    for (const std::uint32_t body : {touch.first, touch.second}) {
-      if (!is_movable(system, body)) continue;
-      const double change = stage.impulses[i] / system.masses[body];
-      Vector& velocity = system.discs[body].velocity;
-      velocity = velocity + (body == touch.first ? -change : change) * touch.normal;
-    }
+void apply(DiscSystem& system, const Touch& touch, double impulse) {
+  for (const std::uint32_t body : {touch.first, touch.second}) {
+    if (!is_movable(system, body)) continue;
+    const double change = impulse / system.masses[body];
+    Vector& velocity = system.discs[body].velocity;
+    velocity = velocity + (body == touch.first ? -change : change) * touch.normal;
   }
 }
 

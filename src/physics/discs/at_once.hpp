@@ -48,10 +48,10 @@ double closing_speed(const DiscSystem& system, const Touch& touch);
 std::optional<Stage> stage_of(const DiscSystem& system, const std::vector<Touch>& touches,
                               double least_speed);
 
-/// Widens the bounds of the velocities, and then changes these. @return whether the bounds hold: if
-/// not, rounding may have changed which touches approach, or with what impulses
+/// Widens the bounds of the velocities for what apply() will change. @return whether the bounds
+/// hold: if not, rounding may have changed which touches approach, or with what impulses
 bool widen(DiscSystem& system, const Stage& stage);
-void apply(DiscSystem& system, const Stage& stage);
+void apply(DiscSystem& system, const Touch& touch, double impulse);
 
 /// Whether each touch surely approaches at more than that speed, or surely does not.
 bool are_decided(const DiscSystem& system, const std::vector<Touch>& touches, double least_speed);

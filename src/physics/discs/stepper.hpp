@@ -133,7 +133,7 @@ class Stepper final : public DiscStepper {
   bool meet_at_once(std::uint32_t disc, std::uint32_t partner, double time);
   void strike(const Stage& stage, double time, std::vector<Struck>& struck);
   void widen_struck(const Struck& struck, double late);
-  void report(const Stage& stage, double time);
+  void apply(const Stage& stage, double time);
   void note_event(const Cluster& cluster, double least);
   double certify_at_once(Cluster& cluster, std::uint32_t disc, std::uint32_t partner, double time,
                          double least);

@@ -133,8 +133,7 @@ bool Stepper::meet_at_once(std::uint32_t disc, std::uint32_t partner, double tim
     if (!stage || stage->touches.empty()) break;
     strike(*stage, time, struck);
     if (is_certain() && !widen(system_, *stage)) end_certainty(time - late);
-    apply(system_, *stage);
-    report(*stage, time);
+    apply(*stage, time);
     if (is_certain() && !are_decided(system_, cluster.touches, least)) end_certainty(time - late);
   }
   if (is_certain() && (!stage || !stage->touches.empty())) end_certainty(time - late);
@@ -170,9 +169,12 @@ void Stepper::widen_struck(const Struck& struck, double late) {
   raise_top_speed(struck.body);
 }
 
-void Stepper::report(const Stage& stage, double time) {
+/// One impulse after the other, so that each collision shows its own.
+void Stepper::apply(const Stage& stage, double time) {
   const bool is_tied = stage.is_tied();
-  for (const Touch& touch : stage.touches) {
+  for (std::size_t i = 0; i < stage.touches.size(); ++i) {
+    const Touch& touch = stage.touches[i];
+    discs::apply(system_, touch, stage.impulses[i]);
     SteppedCollision step;
     step.time = {time * system_.units.time, 0};
     step.is_tied = is_tied;

@@ -80,14 +80,21 @@ std::string count_of(const BoundScript& bound) {
   return hexadecimal(count);
 }
 
+/// What a run has to say that is worth knowing; nothing of one that goes on for ever.
+void add_notes_of_run(const Scene& scene, std::vector<std::string>& notes) {
+  const std::optional<TwoBlocks> pair = two_blocks_of(scene.system);
+  const std::unique_ptr<Log> log = pair ? nullptr : log_of(scene);
+  if (log && log->never_ends() && !log->horizon()) return;
+  const auto collapse = pair ? collapse_of(*pair) : log->collapse({});
+  if (collapse) notes.push_back(endless_note(scene.system, *collapse));
+  if (!log) return;
+  if (auto note = tie_note(*log, log->last())) notes.push_back(*std::move(note));
+}
+
 std::vector<std::string> notes_of(const BoundScript& bound) {
+  const WithoutGil released;
   std::vector<std::string> notes = convention_notes(bound.script);
-  if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
-    // Others would have to be stepped.
-    const std::optional<TwoBlocks> pair = two_blocks_of(scene->system);
-    const auto collapse = pair ? collapse_of(*pair) : std::nullopt;
-    if (collapse) notes.push_back(endless_note(scene->system, *collapse));
-  }
+  if (const auto* const scene = std::get_if<Scene>(&bound.script)) add_notes_of_run(*scene, notes);
   std::ranges::move(contrast_notes(bound.script), std::back_inserter(notes));
   return notes;
 }

@@ -177,7 +177,10 @@ class Scene:
     @property
     def notes(self) -> tuple[str, ...]:
         """What you should know of the scene, in rare cases: that the count follows a convention, that
-        collisions are infinitely many, or that a color is hard to see."""
+        bodies meet at once, that collisions are infinitely many, or that a color is hard to see.
+
+        Of bodies, this computes the run.
+        """
         return tuple(self._script.notes)
 
     def to_toml(self) -> str:
