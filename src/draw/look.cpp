@@ -280,10 +280,13 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
 }
 
 /// Of each body, the place of its colour among blue, red and further ones. See colors_of().
-std::vector<std::size_t> color_places(const std::vector<Body>& bodies) {
+std::vector<std::size_t> color_places(const Scene& scene) {
+  const std::vector<Body>& bodies = scene.system.bodies;
   std::vector<Rational> masses;  // each once, from the lightest
   masses.reserve(bodies.size());
-  for (const Body& body : bodies) masses.push_back(body.mass.value_or(0));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!scene.styles[i].color) masses.push_back(bodies[i].mass.value_or(0));
+  }
   std::ranges::sort(masses);
   masses.erase(std::unique(masses.begin(), masses.end()), masses.end());
   std::erase(masses, 0);
@@ -366,7 +369,7 @@ std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks) 
     if (has_bars) turns.back().bars = kBars.at(turns.size() - 1);
   }
   const BlockColors fixed = colors_from(palette.muted, theme, palette);
-  const std::vector<std::size_t> places = color_places(all);
+  const std::vector<std::size_t> places = color_places(scene);
   std::vector<BlockColors> colors;
   colors.reserve(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {

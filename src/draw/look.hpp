@@ -58,9 +58,10 @@ Palette palette_of(const View& view, const TwoBlocks& blocks,
 /// Of each body: the colour that the scene gives it; else by mass: blue for the lightest, red for
 /// the heaviest, further ones for those between. Where all masses are equal these colours follow in
 /// turn. Blue and red of a scene with short names have their own. Of very many bodies all but the
-/// heaviest are blue. A body that no collision moves has the colour of walls. Two blocks beside
-/// something immovable have names: their colours if these are the theme's, and have names; else
-/// they are large and small, or left and right if their masses are equal.
+/// heaviest are blue. A body with a colour of its own does not change those of others. A body that
+/// no collision moves has the colour of walls. Two blocks beside something immovable have names:
+/// their colours if these are the theme's, and have names; else they are large and small, or left
+/// and right if their masses are equal.
 /// @param blocks  nullptr for other bodies
 std::vector<BlockColors> colors_of(const Scene& scene, const TwoBlocks* blocks);
 

@@ -146,6 +146,22 @@ TEST(Theme, TheLightBodyIsBlueAndTheHeavyOneRed) {
   EXPECT_EQ(std::ranges::count(fills(many), blue), 19);
 }
 
+TEST(Theme, AColourOfItsOwnChangesNoOther) {
+  Scene scene = scene_of(3, Theme::lecture);
+  for (std::size_t i = 0; i < 3; ++i) scene.system.bodies[i].mass = Rational(i + 1);
+  const std::vector<BlockColors> before = colors_of(scene, nullptr);
+  for (std::size_t own = 0; own < 3; ++own) {
+    Scene other = scene;
+    other.system.bodies.insert(
+        other.system.bodies.begin() + std::ptrdiff_t(own),
+        {.mass = own == 1 ? Rational(3, 2) : Rational(1000), .position = {9}});
+    other.styles.insert(other.styles.begin() + std::ptrdiff_t(own), BodyStyle{{{140, 140, 140}}});
+    std::vector<BlockColors> after = colors_of(other, nullptr);
+    after.erase(after.begin() + std::ptrdiff_t(own));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(after[i].fill, before[i].fill) << own << i;
+  }
+}
+
 TEST(Theme, BlocksDifferFromEachOther) {
   for (const Theme theme : kThemes) {
     const Palette palette = palette_of(theme);

@@ -14,14 +14,14 @@ namespace {
 
 TEST(RestitutionStress, RandomSystemsMoveAsStepByStep) {
   TracedRandom random(11);
-  for (std::int64_t i = 0; i < many(500) && !testing::Test::HasFailure(); ++i) {
+  for (std::int64_t i = 0; i < many(250) && !testing::Test::HasFailure(); ++i) {
     expect_like_steps(random_inelastic_system(random), random, i % 20 == 0 ? 300 : 60);
   }
 }
 
 TEST(RestitutionStress, StepsAgreeWithTheClosedForm) {
   TracedRandom random(12);
-  for (std::int64_t i = 0; i < many(1'000) && !testing::Test::HasFailure(); ++i) {
+  for (std::int64_t i = 0; i < many(500) && !testing::Test::HasFailure(); ++i) {
     expect_stepped_like_closed(random_inelastic_system(random));
   }
 }

@@ -12,7 +12,7 @@ import {Player} from "./player.js";
 import {wordsOf} from "./program.js";
 import {Readouts, wordsOfPicture} from "./readouts.js";
 import {Saving} from "./saving.js";
-import {Session, TEXT} from "./session.js";
+import {BROKEN, Session, TEXT} from "./session.js";
 import {copy, offerSharing} from "./sharing.js";
 import {Stage} from "./stage.js";
 
@@ -197,9 +197,11 @@ session.onRefused = () => {
   sayIn(byId("text-problem"), lines.join("\n"));
   text.setAttribute("aria-invalid", String(ofText.length > 0));
   if (ofText.length > 0) byId("more").open = byId("text-group").open = true;
-  const others = session.refusedKeys.filter(key => key !== TEXT && !keysWithField.includes(key))
-    .flatMap(key => session.problemsOf(key).map(problem => wordsOf(problem)));
-  sayIn(byId("problem"), [linkProblem, ...others].filter(words => words).join("\n"));
+  // Nobody can mend what has lost its field.
+  const lost = session.refusedKeys.filter(key => key !== BROKEN && !keysWithField.includes(key));
+  for (const key of lost) session.forget(key);
+  const broken = session.problemsOf(BROKEN).map(problem => wordsOf(problem));
+  sayIn(byId("problem"), [linkProblem, ...broken].filter(words => words).join("\n"));
   // If the scene of a link is wrong, the first scene is shown.
   if (!session.facts && ofText.length > 0) session.openInstead(shippedText(FIRST_SCENE));
 };

@@ -11,8 +11,9 @@ import {Failure, Program, Refusal, STOPPED} from "./program.js";
 /** A newer wish ends work that has lasted longer than this; longer each time, until work is done. */
 const PATIENCE_ms = 1500;
 const TOO_LONG = {origin: "", key: "", reason: "Not applied: it took too long, and something else was asked for."};
-/** The problems of the text are under this name, those of an edit under its key. */
+/** The problems of the text and of the program are under these names, those of an edit under its key. */
 export const TEXT = "text";
+export const BROKEN = "program";
 
 /** The lines that the program reads: a value, or null for the key's default. */
 const linesOf = edits => edits.map(([key, value]) => value === null ? key : `${key}=${value}`).join("\n");
@@ -293,7 +294,7 @@ export class Session {
       this.#forgetWishes();
       const reason = "The program crashed and was restarted; changes that it had not accepted were " +
         `dropped (${error.message}).`;
-      this.#refused.set("program", [{origin: "", key: "", reason}]);
+      this.#refused.set(BROKEN, [{origin: "", key: "", reason}]);
       if (!(error instanceof Failure)) reportError(error);
     }
     this.#tried = nothing();

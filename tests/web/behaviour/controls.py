@@ -20,6 +20,8 @@ const isKept = (input, value, isEnd) => input.type === "checkbox" ? input.checke
 check.refusals = async (scene, kind, values) => {
   const faults = [];
   await check.choose(scene);
+  // What boxes can be chosen is asked for when they are seen.
+  document.getElementById("more").open = true;
   for (let i = 0; i < inputs(kind).length; ++i) {
     for (const value of values) {
       const input = inputs(kind)[i];
@@ -229,13 +231,13 @@ def what_is_copied_is_what_is_shown(check):
     check.page.edit("blue.position", "2.5")
     check.page.press("play")
     check.page.press("share")
+    check.expect("it says so", check.is_seen("shared"))
     check.page.press("copy-embed")
     check.page.press("play")
     scene, frame = check.page.value("copied")
     check.expect("the scene", scene, check.page.value("document.getElementById('text').value"))
     check.expect("is that of the edit", scene != check.scene("article"))
     check.expect("the frame", frame.startswith("<iframe src=") and "embed=1" in frame and "#toml=" in frame)
-    check.expect("it says so", check.is_seen("shared"))
 
 
 def plays_by_itself_once(check):
