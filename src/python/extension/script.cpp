@@ -81,20 +81,28 @@ std::string count_of(const BoundScript& bound) {
 }
 
 /// What a run has to say that is worth knowing; nothing of one that goes on for ever.
-void add_notes_of_run(const Scene& scene, std::vector<std::string>& notes) {
-  const std::optional<TwoBlocks> pair = two_blocks_of(scene.system);
-  const std::unique_ptr<Log> log = pair ? nullptr : log_of(scene);
-  if (log && log->never_ends() && !log->horizon()) return;
-  const auto collapse = pair ? collapse_of(*pair) : log->collapse({});
-  if (collapse) notes.push_back(endless_note(scene.system, *collapse));
-  if (!log) return;
+std::vector<std::string> notes_of_run(const Scene& scene) {
+  std::vector<std::string> notes;
+  const auto add = [&](const std::optional<Collapse>& collapse) {
+    if (collapse) notes.push_back(endless_note(scene.system, *collapse));
+  };
+  if (const auto pair = two_blocks_of(scene.system)) {
+    add(collapse_of(*pair));
+    return notes;
+  }
+  const std::unique_ptr<Log> log = log_of(scene);
+  if (log->never_ends() && !log->horizon()) return notes;
+  add(log->collapse({}));
   if (auto note = tie_note(*log, log->last())) notes.push_back(*std::move(note));
+  return notes;
 }
 
 std::vector<std::string> notes_of(const BoundScript& bound) {
   const WithoutGil released;
   std::vector<std::string> notes = convention_notes(bound.script);
-  if (const auto* const scene = std::get_if<Scene>(&bound.script)) add_notes_of_run(*scene, notes);
+  if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
+    std::ranges::move(notes_of_run(*scene), std::back_inserter(notes));
+  }
   std::ranges::move(contrast_notes(bound.script), std::back_inserter(notes));
   return notes;
 }
