@@ -136,7 +136,7 @@ Rendered join(const std::vector<std::string>& parts, const std::string& output,
 /// The picture is that of the film's first frame that shows the instant. In a storyboard an instant
 /// is a second of its video, and "last" is the last frame.
 /// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.
-/// @return  what a user should know of a scene's run until then, one line each
+/// @return  of a scene: whether the order of collisions at one instant mattered until then
 /// @throws SceneError if problems_of() the scene or storyboard is not empty; UsageError, DrawError,
 ///         MediaError, IoError, SimulationError, Interrupted
 std::vector<std::string> render_still(const Script& script, const Instant& instant,

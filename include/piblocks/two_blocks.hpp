@@ -48,7 +48,8 @@ struct TwoBlocks {
   }
 };
 
-/// The blocks of a system that is nothing but that; nothing for all others.
+/// The blocks of a system that is nothing but that; nothing for all others, and where contacts are
+/// at once.
 std::optional<TwoBlocks> two_blocks_of(const System& system);
 /// The same as bodies: blue, red, and a wall, with these names.
 System system_of(const TwoBlocks& blocks);

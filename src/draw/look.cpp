@@ -287,23 +287,26 @@ std::vector<std::size_t> color_places(const Scene& scene) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!scene.styles[i].color) masses.push_back(bodies[i].mass.value_or(0));
   }
+  const bool are_many = masses.size() > kMostColored;
   std::ranges::sort(masses);
   masses.erase(std::unique(masses.begin(), masses.end()), masses.end());
   std::erase(masses, 0);
   std::vector<std::size_t> places;
   std::size_t movable = 0;
-  for (const Body& body : bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
     const auto found = std::ranges::lower_bound(masses, body.mass.value_or(0));
     const auto rank = static_cast<std::size_t>(found - masses.begin());
     const bool is_heaviest = masses.size() > 1 && rank + 1 == masses.size();
     if (body.name == "blue" || body.name == "red") {
       places.push_back(body.name == "red" ? 1 : 0);
-    } else if (bodies.size() > kMostColored || is_heaviest) {
+    } else if (are_many || is_heaviest) {
       places.push_back(is_heaviest ? 1 : 0);
     } else if (masses.size() > 1) {
       places.push_back(rank == 0 ? 0 : 2 + (rank - 1) % kOnDark.size());
     } else {
-      places.push_back(body.mass ? movable++ % (2 + kOnDark.size()) : 0);
+      const bool is_next = body.mass && !scene.styles[i].color;
+      places.push_back(is_next ? movable++ % (2 + kOnDark.size()) : 0);
     }
   }
   return places;

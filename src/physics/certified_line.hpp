@@ -20,8 +20,8 @@ namespace piblocks {
 class CertifiedLine {
  public:
   /// @param elements    as ExactLine has them just after the collision at `begin`.
-  /// @param is_at_once  ends certainty where contacts at once might differ from those in order,
-  ///                    which all are here
+  /// @param is_at_once  whether the system has contacts at once. Pairs are taken in order here, so
+  ///                    certainty ends where the two might differ.
   CertifiedLine(std::span<const LineElement> elements, const Rational& begin, bool is_at_once);
   CertifiedLine(const CertifiedLine&) = delete;
   CertifiedLine& operator=(const CertifiedLine&) = delete;

@@ -31,8 +31,10 @@ std::uint32_t middle_of(const std::vector<std::uint32_t>& three,
   const auto third = *std::ranges::find_if(three, [&](std::uint32_t id) {
     return id != steps.back().first && id != steps.back().second;
   });
+  const auto is_of_three = [&](std::uint32_t id) { return std::ranges::count(three, id) > 0; };
   const auto met = std::find_if(steps.rbegin(), steps.rend(), [&](const StoredStep& step) {
-    return step.first == third || step.second == third;
+    return (step.first == third && is_of_three(step.second)) ||
+           (step.second == third && is_of_three(step.first));
   });
   return met->first == third ? met->second : met->first;
 }
@@ -103,8 +105,9 @@ std::optional<EndOfSteps> end_of_steps(const System& system, const std::vector<S
     if (own.size() < kLeastSteps || is_before(own[own.size() - kLeastSteps])) continue;
     const auto since = std::ranges::partition_point(own, is_before);
     const auto count = static_cast<std::size_t>(own.end() - since);
-    // Contacts at once have a rule for what follows, which ends after few stages.
-    const bool is_one_instant = are_at_once(system) && !(flight(steps[*since].time, last.time) > 0);
+    // Discs at once have a rule for what follows, which ends after few stages.
+    const bool is_one_instant = system.dimensions == 2 && are_at_once(system) &&
+                                !(flight(steps[*since].time, last.time) > 0);
     // What may go on is asked about seldom.
     if ((is_one_instant && count < kLeastAtOnce) || !std::has_single_bit(count)) continue;
     std::vector<std::uint32_t> bodies = bodies_since(system, steps, *since, body);

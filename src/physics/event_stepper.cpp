@@ -78,6 +78,9 @@ void require_elastic(const System& system) {
 
 std::unique_ptr<Stepper> make_event_stepper(const System& system) {
   require_elastic(system);
+  if (system.contacts == Contacts::at_once) {
+    throw UsageError("event loop: it takes contacts in order; leave out --engine events");
+  }
   if (system.bodies.size() > kMaxEventBodies) {
     throw UsageError(fmt::format(
         "event loop: {} bodies are more than the limit of {}; leave out --engine events",

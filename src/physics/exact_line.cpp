@@ -38,7 +38,8 @@ std::optional<std::vector<Rational>> impulses_at_once(const std::vector<LineElem
                                                       const std::vector<std::size_t>& pairs) {
   std::vector<Rational> impulses;
   std::vector<Rational> pivots;
-  // What the pair before, if it shares a block, takes from this one for each unit of its own.
+  // How much closing speed an impulse of 1 of the pair before adds to this one; 0 if they share no
+  // movable block.
   const auto coupling = [&](std::size_t k) {
     const bool is_shared = k > 0 && k < pairs.size() && pairs[k - 1] + 1 == pairs[k];
     return is_shared ? mobility(elements[pairs[k]]) : Rational(0);
@@ -168,8 +169,8 @@ bool ExactLine::meet() {
   return true;
 }
 
-/// The next pair, and of contacts at once all others that meet when it does. Those apart from it do
-/// not change each other's velocities.
+/// Takes the next pair. With contacts at once it takes all other pairs that meet at that time, too;
+/// pairs without a common block do not influence each other.
 void ExactLine::take_stage() {
   time_ = *meetings_[next_.winner()];
   stage_.clear();

@@ -50,7 +50,8 @@ double impulse_of(const System& system, const Collision& collision) {
   const auto& after = (is_first ? collision.first_after : collision.second_after).velocity;
   const double x = after[0] - before[0];
   const double y = after[1] - before[1];
-  return mass(is_first ? collision.first : collision.second) * std::sqrt(x * x + y * y);
+  const double change = y == 0 ? std::fabs(x) : std::sqrt(x * x + y * y);
+  return mass(is_first ? collision.first : collision.second) * change;
 }
 
 bool is_at_wall(const System& system, const Collision& collision) {

@@ -72,7 +72,7 @@ class SteppedLog final : public Log {
   bool has(const Integer& index) const override {
     compute([&] { return jam_ || is_complete_ || steps_.size() >= index; });
     const std::shared_lock lock(mutex_);
-    // Also the meeting that cannot be: who asks for it is told.
+    // A jam counts as one more: collision() throws its message.
     return index >= 1 && index <= steps_.size() + (jam_ ? 1 : 0);
   }
 

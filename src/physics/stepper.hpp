@@ -16,7 +16,7 @@ namespace piblocks {
 struct SteppedCollision {
   Time time;
   std::optional<Rational> exact_time = {};  ///< if the engine knows it
-  /// Whether one of the two is about to meet another at the same time, or does; false if not known.
+  /// Whether one of the two has another collision at this time; false if not known.
   bool is_tied = false;
   std::uint32_t first = 0;  ///< as in Collision
   std::uint32_t second = 0;

@@ -42,7 +42,7 @@ std::optional<TwoBlocks> two_blocks_of(const System& system) {
   const LineElement& left = elements[0];
   const LineElement& middle = elements[1];
   const LineElement& right = elements[2];
-  if (is_driven(system)) return std::nullopt;
+  if (is_driven(system) || are_at_once(system)) return std::nullopt;
   if (!left.mass && right.mass) return two_blocks_from(system, left, middle, right, 1);
   if (!right.mass && left.mass) return two_blocks_from(system, right, middle, left, -1);
   return std::nullopt;

@@ -28,7 +28,8 @@ void require_certain(const Scene& scene, const Log& log, const std::optional<Rat
   if (scene.time.allow_uncertain) return;
   const std::optional<double> until = log.certain_until(time);
   if (!until) return;
-  if (const auto collapse = log.collapse(time)) {
+  const auto collapse = log.collapse(time);
+  if (collapse && collapse->time && collapse->time->hi <= *until) {
     throw UsageError(
         fmt::format("bodies: there are {}; what follows is not computed; end earlier, as with "
                     "time.to = {:.4g}, "

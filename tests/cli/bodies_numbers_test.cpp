@@ -22,7 +22,8 @@ TEST_F(BodiesCli, SayWhenTheOrderOfPairsDecides) {
         Arguments{"sheet", "tie.toml", "--at", "1,3", "-o", "tie.pdf"}}) {
     const CommandResult result = piblocks(command);
     EXPECT_EQ(result.exit_code, 0) << command[0];
-    EXPECT_EQ(result.err, note) << command[0];
+    // Sheets say more.
+    EXPECT_TRUE(result.err.starts_with(note)) << command[0];
   }
   EXPECT_TRUE(piblocks({"state", "tie.toml", "--at", "1"}).err.empty()) << "not yet";
   EXPECT_TRUE(piblocks({"log", "tie.toml", "--to", "1"}).err.empty()) << "not yet";

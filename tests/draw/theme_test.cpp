@@ -148,9 +148,10 @@ TEST(Theme, TheLightBodyIsBlueAndTheHeavyOneRed) {
 
 TEST(Theme, AColourOfItsOwnChangesNoOther) {
   Scene scene = scene_of(3, Theme::lecture);
-  for (std::size_t i = 0; i < 3; ++i) scene.system.bodies[i].mass = Rational(i + 1);
-  const std::vector<BlockColors> before = colors_of(scene, nullptr);
-  for (std::size_t own = 0; own < 3; ++own) {
+  for (std::size_t turn = 0; turn < 6; ++turn) {
+    const std::size_t own = turn / 2;
+    for (std::size_t i = 0; i < 3; ++i) scene.system.bodies[i].mass = turn % 2 * i + 1;
+    const std::vector<BlockColors> before = colors_of(scene, nullptr);
     Scene other = scene;
     other.system.bodies.insert(
         other.system.bodies.begin() + std::ptrdiff_t(own),

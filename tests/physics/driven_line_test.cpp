@@ -165,13 +165,37 @@ TEST(DrivenLine, ABlockThatIsHitFromBothSidesAtOnceStays) {
 
 /// Each of the two contacts is a collision with an impulse of its own.
 TEST(DrivenLine, ContactsAtOnceShowTheirImpulses) {
-  System row{.bodies = {block(0, 3), block(3, 0, 2), block(6, -1)}, .contacts = Contacts::at_once};
+  // Of both collisions the middle one, which is the lightest, shows the impulse.
+  System row{.bodies = {block(0, 3), block(3, 0, Rational(1, 2)), block(6, -3)},
+             .contacts = Contacts::at_once};
   const auto log = make_log(row);
   const double left = log->impact(CollisionKind::blocks, 1, 1)->impulse;
   const double right = log->impact(CollisionKind::blocks, 2, 2)->impulse;
   const std::vector<double> after = velocities_at_end(row);
+  EXPECT_EQ(log->collision(1).time.hi, log->collision(2).time.hi);
   EXPECT_NEAR(after[0], 3 - left, 1e-15);
-  EXPECT_NEAR(after[2], right - 1, 1e-15);
+  EXPECT_NEAR(after[2], right - 3, 1e-15);
+}
+
+/// Two blocks beside a wall, which the closed form would take in order.
+TEST(DrivenLine, TwoBlocksInACornerMayCollideAtOnce) {
+  System corner{.bodies = {block(2, -1), block(Rational(9, 2), -2, 100)},
+                .walls = {{"left", {0}, {1}}}};
+  EXPECT_GT(make_log(corner)->last(), 20);
+  corner.contacts = Contacts::at_once;
+  EXPECT_EQ(make_log(corner)->last(), 2);
+  EXPECT_EQ(count_collisions(corner), 2);
+  EXPECT_EQ(velocities_at_end(corner), (std::vector<double>{1, 2}));
+}
+
+TEST(DrivenLine, BlocksAtOnceMayCollapse) {
+  System row{.bodies = {block(0, 1, 7), block(1, 0, 11), block(2, 0, 13)}, .restitution = 0};
+  for (const Contacts contacts : {Contacts::in_order, Contacts::at_once}) {
+    row.contacts = contacts;
+    const auto collapse = make_log(row)->collapse({});
+    ASSERT_TRUE(collapse);
+    EXPECT_EQ(collapse->bodies.size(), 3U);
+  }
 }
 
 }  // namespace

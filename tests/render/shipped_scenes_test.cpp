@@ -214,6 +214,7 @@ TEST(ShippedScenes, ThePistonHeatsItsGas) {
 TEST(ShippedScenes, TheRackGoesOffSymmetrically) {
   const Film film = shipped("rack");
   const State state = film.scene()->runs()[0].log().state_at(3);
+  EXPECT_GT(state.count, 10);
   for (const Motion& ball : state.bodies) {
     const auto is_image = [&](const Motion& other) {
       return std::hypot(ball.position[0] - other.position[0],

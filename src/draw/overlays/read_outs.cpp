@@ -359,8 +359,9 @@ std::vector<ReadOut> read_outs_of(const LayoutContext& context) {
   if (context.log.is_always_certain() || !has_span(context.scene, context.log)) return read_outs;
   const Span span = span_of(context.scene, context.log);
   if (const std::optional<double> until = context.log.certain_until(span.to)) {
-    read_outs.push_back(
-        certainty_read_out(context, *until, context.log.collapse(span.to).has_value()));
+    const std::optional<Collapse> collapse = context.log.collapse(span.to);
+    const bool is_collapse = collapse && collapse->time && collapse->time->hi <= *until;
+    read_outs.push_back(certainty_read_out(context, *until, is_collapse));
   }
   return read_outs;
 }

@@ -125,7 +125,8 @@ std::optional<WallMap> face_in_plane(const Wall& wall, const std::vector<Wall>& 
     return layout.at(to_double(wall.point[0]) + s * to_double(wall.normal[1]),
                      to_double(wall.point[1]) - s * to_double(wall.normal[0]));
   };
-  return WallMap(at(part.from), at(part.to));
+  const WallMap map(at(part.from), at(part.to));
+  return map.length > 0 ? std::optional(map) : std::nullopt;
 }
 
 /// Walls that move, where they are.
@@ -162,6 +163,7 @@ class MovingWalls {
       if (!face) return {};
       return hatched_face(face->from, face->to, style_, kWallHatch, style_.line_px / 2);
     }
+    if (wall.point[0] < view_.x.low || wall.point[0] > view_.x.high) return {};
     const double face = to_double(wall.point[0]);
     const int side = sgn(wall.normal[0]);
     if (view_.theme == Theme::article) {

@@ -80,7 +80,8 @@ std::string count_of(const BoundScript& bound) {
   return hexadecimal(count);
 }
 
-/// What a run has to say that is worth knowing; nothing of one that goes on for ever.
+/// Whether contacts at once or infinitely many collisions are in what is shown of a run; nothing of
+/// one that has no end.
 std::vector<std::string> notes_of_run(const Scene& scene) {
   std::vector<std::string> notes;
   const auto add = [&](const std::optional<Collapse>& collapse) {
@@ -91,9 +92,13 @@ std::vector<std::string> notes_of_run(const Scene& scene) {
     return notes;
   }
   const std::unique_ptr<Log> log = log_of(scene);
-  if (log->never_ends() && !log->horizon()) return notes;
-  add(log->collapse({}));
-  if (auto note = tie_note(*log, log->last())) notes.push_back(*std::move(note));
+  const std::optional<Rational> until =
+      scene.time.to.is_time() ? std::optional(std::max<Rational>(scene.time.to.offset, 0))
+                              : std::nullopt;
+  if (log->never_ends() && !until) return notes;
+  add(log->collapse(until));
+  auto note = tie_note(*log, until ? log->count_at(*until) : log->last());
+  if (note) notes.push_back(*std::move(note));
   return notes;
 }
 

@@ -197,7 +197,7 @@ session.onRefused = () => {
   sayIn(byId("text-problem"), lines.join("\n"));
   text.setAttribute("aria-invalid", String(ofText.length > 0));
   if (ofText.length > 0) byId("more").open = byId("text-group").open = true;
-  // Nobody can mend what has lost its field.
+  // Nobody can correct a refused value that has no field any more.
   const lost = session.refusedKeys.filter(key => key !== BROKEN && !keysWithField.includes(key));
   for (const key of lost) session.forget(key);
   const broken = session.problemsOf(BROKEN).map(problem => wordsOf(problem));
