@@ -135,7 +135,8 @@ TEST(Mp4Tracks, OfOpusSayWhatItsDecoderNeeds) {
   EXPECT_EQ(number_at(boxes.at("moov/trak'/edts/elst"), 12), 312u);
 
   const std::string problem =
-      "h264: Opus of an MP4 file has no header of mapping family 0, or not 48000 Hz";
+      "h264: Opus of an MP4 file has no header of two channels in mapping family 0, or not 48000 "
+      "Hz";
   track.sound->rate_hz = 24000;
   EXPECT_EQ(problem_of(track), problem);
   track.sound->rate_hz = 48000;
