@@ -136,7 +136,7 @@ TEST(DrivenLine, AWallIsWhereItHasMoved) {
   EXPECT_EQ(log->impact(CollisionKind::wall, 1, 1)->impulse, 1);
 }
 
-TEST(DrivenLine, NothingMovesTwoAsideThatNoCollisionMoves) {
+TEST(DrivenLine, TwoImmovableBodiesThatMeetEndTheRun) {
   System system{.bodies = {block(5, 1), block(2, 1)}, .walls = {{"left", {0}, {1}}}};
   system.bodies[1].mass.reset();
   system.bodies[1].velocity[0] = Rational(-1, 2);

@@ -52,9 +52,9 @@ export class Session {
   #isNewer = false;
   #isWorking = false;
   #work = Promise.resolve();
-  /** The newest task that answers no wish.
+  /** The newest task that is no wish: choices, or a file.
    * @type {Promise<any>} */
-  #between = Promise.resolve();
+  #sideTask = Promise.resolve();
   /** What is wrong with edits that are still wanted, and what was with those that were dropped. */
   #refused = new Map();
   #dropped = new Map();
@@ -155,7 +155,7 @@ export class Session {
 
   /** What cannot be added to the picture, and why. */
   choices() {
-    return this.#callBetween("choices");
+    return this.#callAside("choices");
   }
 
   /** Gives back the memory of a picture that is on the canvas. */
@@ -165,7 +165,7 @@ export class Session {
 
   /** A file of what is shown. */
   save(name) {
-    return this.#callBetween("save", {name});
+    return this.#callAside("save", {name});
   }
 
   /** Ends what the program does, and goes on with the scene that it has accepted. */
@@ -230,19 +230,19 @@ export class Session {
     this.onPicture(picture);
   }
 
-  /** A task that answers no wish: nothing but Stop ends it. */
-  async #callBetween(task, details = {}) {
+  /** Does a task that is no wish. Only Stop ends it. */
+  async #callAside(task, details = {}) {
     await this.#work;
     this.#replaceIfBroken();
     await this.#haveScene();
-    this.#between = this.#program.call(task, details);
-    return this.#between;
+    this.#sideTask = this.#program.call(task, details);
+    return this.#sideTask;
   }
 
   async #call(task, details) {
     const program = this.#program;  // one that Stop has ended stays ended
     await program.started;
-    await this.#between.catch(() => {});
+    await this.#sideTask.catch(() => {});
     this.#since = performance.now();
     try {
       if (task === "show") await this.#haveScene();
