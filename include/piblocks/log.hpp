@@ -143,9 +143,9 @@ class Log {
   /// nearest double to the true one. In closed form it is if the outer block is not the heavier
   /// one; else numbers are some units in the last place off.
   virtual bool is_exact(const Integer& index) const = 0;
-  /// The first collision up to `last` of a body that has another one due at the same time: TieRank
-  /// then decides what comes next. Looks at collisions in rational numbers and at contacts at once;
-  /// nothing if there is none.
+  /// The first collision up to `last` of a body that has another one at the same time: TieRank then
+  /// decides which comes first, if contacts are in order. Looks at collisions in rational numbers
+  /// and at contacts at once; nothing if there is none.
   virtual std::optional<Integer> first_tie(const Integer& last) const = 0;
   /// The time up to which rounding cannot have changed which bodies collide, or the order in which
   /// each one meets others. Nothing if this holds until `time`; without a time, if it holds for
@@ -184,6 +184,15 @@ class Log {
 
 /// Whether log.last() stands for infinitely many collisions: see Collapse.
 inline bool is_endless(const Log& log) { return log.collapse({}).has_value(); }
+
+/// The collapse at which certainty ends; nothing if rounding ends it earlier.
+/// @param certain_until  as the log says of the same time
+inline std::optional<Collapse> collapse_at(const Log& log, double certain_until,
+                                           const std::optional<Rational>& time) {
+  std::optional<Collapse> collapse = log.collapse(time);
+  const bool is_first = collapse && collapse->time && collapse->time->hi <= certain_until;
+  return is_first ? std::move(collapse) : std::nullopt;
+}
 
 enum class Engine {
   unfolded,  ///< the cheapest that is right: a closed form, exact or certified steps

@@ -56,6 +56,7 @@ struct System {
   std::optional<Contacts> contacts = {};
 };
 
+/// Whether contacts are at once, as the system says or by default.
 bool are_at_once(const System& system);
 
 /// The coefficient of restitution of two that meet: the lower one of both. A body or a wall without

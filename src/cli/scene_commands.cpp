@@ -37,7 +37,7 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
     count = until ? log->count_at(*until) : log->last();
   }
   if (log) {
-    require_finite(*log, until);
+    require_finite_count(*log, until);
     require_certain(scene, *log, until);
   } else {
     count = count_collisions(scene.system);

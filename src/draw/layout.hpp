@@ -183,9 +183,14 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
   }};
 }
 
-/// The sum of mass · velocity² of all movable bodies, which never changes.
+/// At time 0: the sum of mass · velocity² of all movable bodies.
 Rational twice_energy(const System& system);
-/// The largest of a film; where something is driven, of some of its instants.
+/// The same of a state. It may be beyond the range of a double.
+/// @param masses  movable_masses()
+mpf_class twice_energy(const std::vector<mpf_class>& masses, const State& state);
+/// Of all bodies; 0 if one is immovable.
+std::vector<mpf_class> movable_masses(const System& system);
+/// The largest in a film. If something is driven, it is looked for at 65 instants only.
 Rational most_twice_energy(const Scene& scene, const Log& log);
 /// Of all movable bodies; 0 if there is none.
 Rational heaviest_mass(const System& system);

@@ -284,18 +284,24 @@ std::vector<std::size_t> color_places(const Scene& scene) {
   const std::vector<Body>& bodies = scene.system.bodies;
   std::vector<Rational> masses;  // each once, from the lightest
   masses.reserve(bodies.size());
+  const auto has_its_color = [&](std::size_t i) {
+    return !bodies[i].mass || scene.styles[i].color;
+  };
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!scene.styles[i].color) masses.push_back(bodies[i].mass.value_or(0));
+    if (!has_its_color(i)) masses.push_back(*bodies[i].mass);
   }
   const bool are_many = masses.size() > kMostColored;
   std::ranges::sort(masses);
   masses.erase(std::unique(masses.begin(), masses.end()), masses.end());
-  std::erase(masses, 0);
   std::vector<std::size_t> places;
   std::size_t movable = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
-    const auto found = std::ranges::lower_bound(masses, body.mass.value_or(0));
+    if (has_its_color(i)) {
+      places.push_back(0);
+      continue;
+    }
+    const auto found = std::ranges::lower_bound(masses, *body.mass);
     const auto rank = static_cast<std::size_t>(found - masses.begin());
     const bool is_heaviest = masses.size() > 1 && rank + 1 == masses.size();
     if (body.name == "blue" || body.name == "red") {
@@ -305,8 +311,7 @@ std::vector<std::size_t> color_places(const Scene& scene) {
     } else if (masses.size() > 1) {
       places.push_back(rank == 0 ? 0 : 2 + (rank - 1) % kOnDark.size());
     } else {
-      const bool is_next = body.mass && !scene.styles[i].color;
-      places.push_back(is_next ? movable++ % (2 + kOnDark.size()) : 0);
+      places.push_back(movable++ % (2 + kOnDark.size()));
     }
   }
   return places;

@@ -13,14 +13,15 @@
 namespace piblocks {
 
 std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop, Engine engine) {
-  const bool is_time = scene.time.to.is_time();
-  return make_log(
-      scene.system,
-      is_time ? std::optional(std::max(scene.time.to.offset, Rational(0))) : std::nullopt, stop,
-      engine);
+  return make_log(scene.system, end_of(scene), stop, engine);
 }
 
-void require_finite(const Log& log, const std::optional<Rational>& until) {
+std::optional<Rational> end_of(const Scene& scene) {
+  if (!scene.time.to.is_time()) return std::nullopt;
+  return std::max(scene.time.to.offset, Rational(0));
+}
+
+void require_finite_count(const Log& log, const std::optional<Rational>& until) {
   if (const auto collapse = log.collapse(until)) refuse_count(log.system(), *collapse);
 }
 
@@ -28,8 +29,7 @@ void require_certain(const Scene& scene, const Log& log, const std::optional<Rat
   if (scene.time.allow_uncertain) return;
   const std::optional<double> until = log.certain_until(time);
   if (!until) return;
-  const auto collapse = log.collapse(time);
-  if (collapse && collapse->time && collapse->time->hi <= *until) {
+  if (const auto collapse = collapse_at(log, *until, time)) {
     throw UsageError(
         fmt::format("bodies: there are {}; what follows is not computed; end earlier, as with "
                     "time.to = {:.4g}, "

@@ -19,9 +19,12 @@ namespace piblocks {
 std::unique_ptr<Log> log_of(const Scene& scene, const std::stop_token& stop = {},
                             Engine engine = Engine::unfolded);
 
+/// `time.to`, but not before time 0; nothing if it is no time.
+std::optional<Rational> end_of(const Scene& scene);
+
 /// @param until  nothing for the whole run
 /// @throws UsageError if there are infinitely many collisions until then.
-void require_finite(const Log& log, const std::optional<Rational>& until);
+void require_finite_count(const Log& log, const std::optional<Rational>& until);
 
 /// @param time  nothing for the whole run
 /// @throws UsageError if bodies are not certain until this time, unless the scene allows that.

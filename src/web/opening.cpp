@@ -42,7 +42,8 @@ Shows shows_of(const Script& script) {
   for (const Segment& segment : std::get<Storyboard>(script).segments) {
     Show& all = shows[number_in(segment.origin, "scene:")];
     const auto* const scenes = std::get_if<Scenes>(&segment.content);
-    for (const Scene& scene : scenes ? *scenes : Scenes{}) {
+    if (scenes == nullptr) continue;
+    for (const Scene& scene : *scenes) {
       const Show& show = scene.show;
       if (all.panels.empty()) all.panels = show.panels;
       if (!all.overlays || all.overlays->empty()) all.overlays = show.overlays;
@@ -158,6 +159,8 @@ class Opener {
     LeftOut out = problem.key == "show" ? least_needed(show) : LeftOut{problem.key, problem.item};
     if (out.item.empty()) out.item = last_of_list(out.key, show);
     if (is_of_part(out.key)) out.part = part;
+    // The part may have it from the whole film.
+    if (is_among(did_not_help_, out)) out.part = 0;
     const bool is_of_all = problem.key == "show" && changed_.starts_with("show.");
     if (is_of_all || set_same_value(out.key, changed_) || is_among(did_not_help_, out))
       return std::nullopt;

@@ -245,6 +245,17 @@ TEST(Open, LeavesOutWhatThePartsOfAStoryboardShow) {
   EXPECT_EQ(std::get<Scenes>(story.segments[1].content)[0].show.title, "It has room");
 }
 
+TEST(Open, LeavesOutWhatPartsHaveFromTheWholeFilm) {
+  const std::string title(300, 'x');
+  const OpenedScript opened =
+      open("show.title = \"" + title + "\"\n[[part]]\ndigits = 2\n[[part]]\nshow.title = \"B\"\n",
+           "view.size=640x360");
+  EXPECT_FALSE(left_out_of(opened).empty());
+  const auto& story = std::get<Storyboard>(opened.live->script());
+  EXPECT_EQ(std::get<Scenes>(story.segments[0].content)[0].show.title, "");
+  EXPECT_EQ(std::get<Scenes>(story.segments[1].content)[0].show.title, "B");
+}
+
 TEST(Choices, AreThoseThatCanBeAdded) {
   const OpenedScript opened = open(kLecture + "wall.restitution = 0.9\n");
   const std::string choices = choices_json(*opened.live);

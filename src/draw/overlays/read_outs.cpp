@@ -157,21 +157,9 @@ struct Scale {
 /// Whether there is a word for each body, so that its share of a sum can be shown.
 bool has_names(const LayoutContext& context) { return context.pair() != nullptr; }
 
-/// It may be beyond the range of a double.
-mpf_class energy_in(const std::vector<mpf_class>& masses, const State& state) {
-  mpf_class sum = 0;
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    const auto& [x, y] = state.bodies[i].velocity;
-    sum += masses[i] * (mpf_class(x) * x + mpf_class(y) * y) / 2;
-  }
-  return sum;
-}
-
-/// The energy of bodies that lose some in collisions, or get some from what no collision moves.
+/// The energy of bodies that lose some in collisions, or get some from what is immovable.
 ReadOut changing_energy(const LayoutContext& context, int digits) {
   const System& system = context.scene.system;
-  std::vector<mpf_class> masses;
-  for (const Body& body : system.bodies) masses.emplace_back(body.mass.value_or(0));
   const Rational exact_most = most_twice_energy(context.scene, context.log) / 2;
   const Scale scale(magnitude_of(exact_most), digits);
   const mpf_class most(exact_most);
@@ -192,7 +180,9 @@ ReadOut changing_energy(const LayoutContext& context, int digits) {
   const bool has_first = is_driven(system) && !is_elastic(system);
   const std::string widest = text(most, has_first ? begin : mpf_class(2 * most));
   return {"energy", widest,
-          [=](const FrameState& shown) { return text(energy_in(masses, shown.state), begin); },
+          [=, masses = movable_masses(system)](const FrameState& shown) {
+            return text(twice_energy(masses, shown.state) / 2, begin);
+          },
           context.palette.text};
 }
 
@@ -359,9 +349,8 @@ std::vector<ReadOut> read_outs_of(const LayoutContext& context) {
   if (context.log.is_always_certain() || !has_span(context.scene, context.log)) return read_outs;
   const Span span = span_of(context.scene, context.log);
   if (const std::optional<double> until = context.log.certain_until(span.to)) {
-    const std::optional<Collapse> collapse = context.log.collapse(span.to);
-    const bool is_collapse = collapse && collapse->time && collapse->time->hi <= *until;
-    read_outs.push_back(certainty_read_out(context, *until, is_collapse));
+    read_outs.push_back(
+        certainty_read_out(context, *until, collapse_at(context.log, *until, span.to).has_value()));
   }
   return read_outs;
 }

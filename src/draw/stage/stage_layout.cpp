@@ -193,21 +193,31 @@ Rational twice_energy(const System& system) {
   return sum;
 }
 
+mpf_class twice_energy(const std::vector<mpf_class>& masses, const State& state) {
+  mpf_class sum = 0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const auto& [x, y] = state.bodies[i].velocity;
+    sum += masses[i] * (mpf_class(x) * x + mpf_class(y) * y);
+  }
+  return sum;
+}
+
+std::vector<mpf_class> movable_masses(const System& system) {
+  std::vector<mpf_class> masses;
+  for (const Body& body : system.bodies) masses.emplace_back(body.mass.value_or(0));
+  return masses;
+}
+
 Rational most_twice_energy(const Scene& scene, const Log& log) {
   Rational most = twice_energy(scene.system);
   if (!is_driven(scene.system) || !has_span(scene, log)) return most;
   const Span span = span_of(scene, log);
+  const std::vector<mpf_class> masses = movable_masses(scene.system);
   constexpr int kInstants = 64;
-  System then = scene.system;
   for (int i = 0; i <= kInstants; ++i) {
     const Rational time = span.from + (span.to - span.from) * i / kInstants;
     const State state = log.state_at(std::max<Rational>(time, 0));
-    for (std::size_t body = 0; body < then.bodies.size(); ++body) {
-      for (const std::size_t axis : {0U, 1U}) {
-        then.bodies[body].velocity.at(axis) = Rational(state.bodies[body].velocity.at(axis));
-      }
-    }
-    most = std::max(most, twice_energy(then));
+    most = std::max(most, Rational(twice_energy(masses, state)));
   }
   return most;
 }

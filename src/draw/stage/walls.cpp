@@ -142,6 +142,7 @@ class MovingWalls {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     std::vector<Wall> walls = walls_;
     for (Wall& wall : walls) {
+      if (!is_moving(wall)) continue;
       for (const std::size_t axis : {0U, 1U}) {
         wall.point.at(axis) += wall.velocity.at(axis) * shown.time;
       }

@@ -92,9 +92,7 @@ std::vector<std::string> notes_of_run(const Scene& scene) {
     return notes;
   }
   const std::unique_ptr<Log> log = log_of(scene);
-  const std::optional<Rational> until =
-      scene.time.to.is_time() ? std::optional(std::max<Rational>(scene.time.to.offset, 0))
-                              : std::nullopt;
+  const std::optional<Rational> until = end_of(scene);
   if (log->never_ends() && !until) return notes;
   add(log->collapse(until));
   auto note = tie_note(*log, until ? log->count_at(*until) : log->last());

@@ -179,7 +179,7 @@ class Scene:
         """What you should know of the scene, in rare cases: that the count follows a convention, that
         bodies meet at once, that collisions are infinitely many, or that a color is hard to see.
 
-        For a scene of bodies, this computes the run until its end.
+        For a scene of bodies, this computes the run until its end, and raises as ``count`` does.
         """
         return tuple(self._script.notes)
 

@@ -21,6 +21,8 @@ export class Bodies {
   #session;
   #facts = null;
   #room = null;
+  /** Whether somebody waits for the program to say where there is room. */
+  #isAdding = false;
   #cells = [];
   #table = element("table");
   #problem = element("p", {className: "problem", id: "bodies-problem", hidden: true, role: "alert"});
@@ -59,6 +61,7 @@ export class Bodies {
     if (room === undefined) return;
     this.#add.disabled = !room;
     this.#add.title = room ? "" : "There is no room for another one.";
+    if (this.#isAdding) this.#addRow();
   }
 
   #draw({dimensions, rows}) {
@@ -110,6 +113,7 @@ export class Bodies {
   #addRow() {
     const {count} = this.#facts;
     const room = this.#room;
+    this.#isAdding = room === undefined;
     if (!room) return;
     for (const property of ["position", "velocity", "size", "mass"]) {
       this.#session.edit(`body ${count + 1}.${this.#keyOf(property)}`, [room[property]].flat().join("\t"));

@@ -44,6 +44,8 @@ let busyTimer = null;
 let textTimer = null;
 let addressTimer = null;
 let choicesTimer = null;
+/** The facts of the scene whose choices are known. */
+let choicesOf = null;
 /** Whether somebody has typed what the program has not seen, or has refused. */
 let isTextNewer = false;
 /** Stays until another scene is opened. */
@@ -156,15 +158,17 @@ session.onOpened = (facts, left) => {
 };
 
 async function updateChoices() {
+  clearTimeout(choicesTimer);
+  const {facts} = session;
+  // While nobody sees them, they would only keep the program from its frames.
+  if (!facts || facts === choicesOf || !byId("more").open && !facts.bodies) return;
   if (session.isBusy) {
     choicesTimer = setTimeout(updateChoices, 150);
     return;
   }
-  const {facts} = session;
-  // While nobody sees them, they would only keep the program from its frames.
-  if (!byId("more").open && !facts?.bodies) return;
   const choices = await session.choices().catch(() => ({}));
   if (facts !== session.facts) return;
+  choicesOf = facts;
   fields.disable(choices);
   bodies.setRoom(choices.room);
   document.body.dataset.hasChoices = "true";
@@ -174,9 +178,9 @@ async function updateChoices() {
 function sayLeftOut() {
   const byReason = new Map();
   for (const {key, item, reason} of leftOut) {
-    byReason.set(reason, [...(byReason.get(reason) ?? []), item || (fields.labelOf(key) ?? key)]);
+    byReason.set(reason, (byReason.get(reason) ?? new Set()).add(item || (fields.labelOf(key) ?? key)));
   }
-  const words = [...byReason].map(([reason, names]) => `${names.join(", ")} (${reason})`);
+  const words = [...byReason].map(([reason, names]) => `${[...names].join(", ")} (${reason})`);
   byId("left-out").hidden = leftOut.length === 0;
   byId("left-out").firstElementChild.textContent = `Left out: ${words.join("; ")}.`;
   byId("bring-back").hidden = !cause;
