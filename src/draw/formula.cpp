@@ -35,7 +35,7 @@ std::string utf8_of(std::uint32_t code) {
 }
 
 /// The bold italic letter of Unicode's block "Mathematical Alphanumeric Symbols", which is as heavy
-/// as text beside it; 0 if it has none.
+/// as text beside it; 0 if it has none. The live page has no others (src/web/reduce_fonts).
 std::uint32_t italic_of(std::uint32_t code) {
   if (code >= 'A' && code <= 'Z') return 0x1D468 + (code - 'A');
   if (code >= 'a' && code <= 'z') return 0x1D482 + (code - 'a');
@@ -182,8 +182,6 @@ Formula FormulaSetter::italic(std::string_view utf8) const {
   }
   return line;
 }
-
-Formula FormulaSetter::symbol(std::string_view utf8) const { return set(Face::math, utf8); }
 
 // NOLINTBEGIN(readability-convert-member-functions-to-static): set.root() reads like set.text()
 Formula FormulaSetter::root(const Formula& of) const {

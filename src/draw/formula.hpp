@@ -67,8 +67,6 @@ class FormulaSetter {
   Formula digits(std::string_view utf8) const;
   /// Letters, Latin or small Greek ones, in italics; other characters stay upright.
   Formula italic(std::string_view utf8) const;
-  /// A character of the mathematical font, such as a bracket.
-  Formula symbol(std::string_view utf8) const;
   Formula root(const Formula& of) const;
   Formula raised(const Formula& base, const Formula& exponent) const;
   Formula lowered(const Formula& base, const Formula& index) const;
