@@ -155,6 +155,7 @@ session.onOpened = (facts, left) => {
   choicesTimer = setTimeout(updateChoices, 150);
   if (firstPlace) invite(firstPlace);
   firstPlace = null;
+  document.documentElement.classList.remove("poster");
 };
 
 async function updateChoices() {

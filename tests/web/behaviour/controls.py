@@ -3,6 +3,9 @@
 In: a Check. Out: its faults.
 """
 
+import base64
+import re
+
 # Buttons of the page that make files or leave it.
 NO_BUTTONS = ["share", "copy-embed", "copy-text", "full-screen", "play", "play-first", "sound", "stop", "cancel",
               "bring-back", "undo"]
@@ -252,6 +255,23 @@ def plays_by_itself_once(check):
         found = check.page.value("document.body.dataset.isPlaying === 'true'")
         check.expect(f"plays at {address}", found, plays)
     check.browser.prefer(prefers_reduced_motion="reduce")
+
+
+def a_poster_is_seen_until_the_program_draws(check):
+    is_seen = "document.documentElement.className === 'poster'"
+    no_program = check.browser.call("Page.addScriptToEvaluateOnNewDocument",
+                                    source="Worker = class { postMessage() {} };")
+    for address, expected in [("", True), ("?embed=1", True), ("#article", False)]:
+        check.browser.show_address("about:blank")
+        check.browser.show_address(check.path.as_uri() + address)
+        check.expect(f"a poster at {address}", check.page.value(is_seen), expected)
+    check.browser.call("Page.removeScriptToEvaluateOnNewDocument", **no_program)
+    posters = re.findall(r"url\(data:image/png;base64,([^)]*)\)", check.path.read_text())
+    for size, poster in zip(["1280x720", "720x900"], posters, strict=True):
+        check.page.load(check.path)
+        check.expect("no poster over a picture", not check.page.value(is_seen))
+        check.page.edit("view.size", size)
+        check.expect(f"pixels of the poster {size} that differ", check.page.differences(base64.b64decode(poster)), 0)
 
 
 def a_telephone_has_an_upright_picture(check):
