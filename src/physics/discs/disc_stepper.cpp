@@ -27,10 +27,21 @@ void Stepper::plan(std::uint32_t disc) {
   plans_[disc].crossing = cells_.crossing_time(disc);
   if (system_.is_movable(disc)) {
     for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
-    cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+    for (const std::uint32_t other : discs_near(disc)) plan_meeting(disc, other);
   }
   if (is_certain()) plan_end_of_margin(disc);
   enqueue(disc);
+}
+
+/// A collision asks for them several times, and following the lists of cells takes long.
+const std::vector<std::uint32_t>& Stepper::discs_near(std::uint32_t body) {
+  if (near_[0].body != body) std::swap(near_[0], near_[1]);
+  Near& near = near_[0];
+  if (near.body == body) return near.discs;
+  near.body = body;
+  near.discs.clear();
+  cells_.visit_near(body, [&](std::uint32_t other) { near.discs.push_back(other); });
+  return near.discs;
 }
 
 /// Plans for both: the other disc may not have known this one when it was planned.
@@ -149,6 +160,7 @@ void Stepper::enqueue(std::uint32_t disc) {
 }
 
 void Stepper::cross(std::uint32_t body) {
+  forget_near();
   cells_.cross(body, [&](std::uint32_t near) {
     if (system_.is_movable(body)) {
       plan_meeting(body, near);
@@ -255,6 +267,7 @@ void Stepper::renew_cells(double time) {
   if (++since_build_ < std::max(number_, 1000u)) return;
   since_build_ = 0;
   if (!cells_.is_outgrown(time)) return;
+  forget_near();
   cells_.build(time);
   plan_all();
 }
@@ -298,7 +311,7 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
 }
 
 /// Before which time a disc meets nobody, except one.
-double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
+double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) {
   double soonest = kNever;
   const auto look_at = [&](std::uint32_t near) {
     if (near == body || near == excepted || have_just_met(body, near)) return;
@@ -306,7 +319,7 @@ double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
     soonest = std::min(soonest, earliest(body, near));
   };
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
-  cells_.visit_near(body, look_at);
+  for (const std::uint32_t near : discs_near(body)) look_at(near);
   return soonest;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -31,6 +32,12 @@ struct Plan {
   bool is_doubt = false;            ///< not a meeting, but from then on one cannot be ruled out
   double possible = kNever;         ///< while all is certain: they truly do not meet before
   Rival rival = {};
+};
+
+/// The discs that may be near one.
+struct Near {
+  std::uint32_t body = kNobody;
+  std::vector<std::uint32_t> discs = {};  ///< itself among them, and some twice
 };
 
 /// Bodies that touch at one instant.
@@ -124,10 +131,12 @@ class Stepper final : public DiscStepper {
   bool touch(double radius, Vector place, std::uint32_t partner, double time) const;
   Touch touch_of(std::uint32_t disc, std::uint32_t partner, double time) const;
   std::uint64_t rank_of(std::uint32_t disc, std::uint32_t partner) const;
+  const std::vector<std::uint32_t>& discs_near(std::uint32_t body);
+  void forget_near() { near_[0].body = near_[1].body = kNobody; }
   template <typename Visit>
-  void visit_all(std::uint32_t body, Visit visit) const;
-  bool meet_alone(std::uint32_t disc, std::uint32_t partner, double time) const;
-  Cluster cluster_of(std::uint32_t disc, std::uint32_t partner, double time) const;
+  void visit_all(std::uint32_t body, Visit visit);
+  bool meet_alone(std::uint32_t disc, std::uint32_t partner, double time);
+  Cluster cluster_of(std::uint32_t disc, std::uint32_t partner, double time);
   bool is_single(const Cluster& cluster) const;
   double least_speed(const Cluster& cluster) const;
   bool meet_at_once(std::uint32_t disc, std::uint32_t partner, double time);
@@ -137,14 +146,14 @@ class Stepper final : public DiscStepper {
   void note_event(const Cluster& cluster, double least);
   double certify_at_once(Cluster& cluster, std::uint32_t disc, std::uint32_t partner, double time,
                          double least);
-  bool is_clear(const Cluster& cluster, double time, double late) const;
+  bool is_clear(const Cluster& cluster, double time, double late);
   void end_certainty(double time);
   Vector place_of(std::uint32_t disc, double time) const;
   Motion motion_of(std::uint32_t disc, double time) const;
   static void require_finite(const SteppedCollision& step);
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
-  double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
+  double earliest_but(std::uint32_t excepted, std::uint32_t body);
   std::optional<MeetingError> meeting_error(std::uint32_t disc, std::uint32_t partner,
                                             double time) const;
   std::optional<MeetingError> certify(std::uint32_t disc, std::uint32_t partner, double time);
@@ -154,6 +163,7 @@ class Stepper final : public DiscStepper {
   std::vector<Disc>& discs_;
   std::uint32_t number_;
   Cells cells_;
+  std::array<Near, 2> near_ = {};  ///< of the two that met last, until cells change
   std::vector<Plan> plans_;
   EventTree queue_;
   double until_ = kNever;
@@ -174,11 +184,11 @@ bool Stepper::is_stale(const Planned& planned) const {
 
 /// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
 template <typename Visit>
-void Stepper::visit_all(std::uint32_t body, Visit visit) const {
+void Stepper::visit_all(std::uint32_t body, Visit visit) {
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
-  cells_.visit_near(body, [&](std::uint32_t other) {
+  for (const std::uint32_t other : discs_near(body)) {
     if (other != body) visit(other);
-  });
+  }
 }
 
 }  // namespace piblocks::discs

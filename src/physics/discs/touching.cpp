@@ -39,7 +39,7 @@ bool Stepper::touch(double radius, Vector place, std::uint32_t partner, double t
 }
 
 /// Whether these two are all that touches at the place where they meet.
-bool Stepper::meet_alone(std::uint32_t disc, std::uint32_t partner, double time) const {
+bool Stepper::meet_alone(std::uint32_t disc, std::uint32_t partner, double time) {
   bool are_alone = true;
   const auto look_around = [&](std::uint32_t body, std::uint32_t met) {
     if (!is_disc(body) || !system_.is_movable(body)) return;
@@ -67,7 +67,7 @@ Touch Stepper::touch_of(std::uint32_t disc, std::uint32_t partner, double time) 
 }
 
 /// All that touch these two directly or through movable bodies.
-Cluster Stepper::cluster_of(std::uint32_t disc, std::uint32_t partner, double time) const {
+Cluster Stepper::cluster_of(std::uint32_t disc, std::uint32_t partner, double time) {
   Cluster cluster;
   const auto add = [&](std::uint32_t body) {
     if (!is_disc(body) || !system_.is_movable(body)) return false;
@@ -242,7 +242,7 @@ double Stepper::certify_at_once(Cluster& cluster, std::uint32_t disc, std::uint3
 }
 
 /// Whether each body that is near one of these surely touches it, or surely does not.
-bool Stepper::is_clear(const Cluster& cluster, double time, double late) const {
+bool Stepper::is_clear(const Cluster& cluster, double time, double late) {
   bool is_clear = true;
   for (const std::uint32_t body : cluster.bodies) {
     visit_all(body, [&](std::uint32_t other) {
