@@ -35,7 +35,7 @@ std::string utf8_of(std::uint32_t code) {
 }
 
 /// The bold italic letter of Unicode's block "Mathematical Alphanumeric Symbols", which is as heavy
-/// as text beside it; 0 if it has none. The live page has no others (src/web/reduce_fonts).
+/// as text beside it; 0 if it has none. The live page's font has no others (src/web/reduce_fonts).
 std::uint32_t italic_of(std::uint32_t code) {
   if (code >= 'A' && code <= 'Z') return 0x1D468 + (code - 'A');
   if (code >= 'a' && code <= 'z') return 0x1D482 + (code - 'a');

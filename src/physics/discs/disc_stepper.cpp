@@ -33,14 +33,14 @@ void Stepper::plan(std::uint32_t disc) {
   enqueue(disc);
 }
 
-/// A collision asks for them several times, and following the lists of cells takes long.
+/// One collision asks several times who is near, and following the lists of cells takes long.
 const std::vector<std::uint32_t>& Stepper::discs_near(std::uint32_t body) {
   if (near_[0].body != body) std::swap(near_[0], near_[1]);
   Near& near = near_[0];
   if (near.body == body) return near.discs;
-  near.body = body;
   near.discs.clear();
   cells_.visit_near(body, [&](std::uint32_t other) { near.discs.push_back(other); });
+  near.body = body;
   return near.discs;
 }
 

@@ -34,7 +34,7 @@ struct Plan {
   Rival rival = {};
 };
 
-/// The discs that may be near one.
+/// A disc, and those that may be near it.
 struct Near {
   std::uint32_t body = kNobody;
   std::vector<std::uint32_t> discs = {};  ///< itself among them, and some twice
@@ -131,6 +131,7 @@ class Stepper final : public DiscStepper {
   bool touch(double radius, Vector place, std::uint32_t partner, double time) const;
   Touch touch_of(std::uint32_t disc, std::uint32_t partner, double time) const;
   std::uint64_t rank_of(std::uint32_t disc, std::uint32_t partner) const;
+  /// @returns what stays as it is until the next call
   const std::vector<std::uint32_t>& discs_near(std::uint32_t body);
   void forget_near() { near_[0].body = near_[1].body = kNobody; }
   template <typename Visit>
@@ -163,7 +164,7 @@ class Stepper final : public DiscStepper {
   std::vector<Disc>& discs_;
   std::uint32_t number_;
   Cells cells_;
-  std::array<Near, 2> near_ = {};  ///< of the two that met last, until cells change
+  std::array<Near, 2> near_ = {};  ///< of the two that were asked about last, until cells change
   std::vector<Plan> plans_;
   EventTree queue_;
   double until_ = kNever;

@@ -24,6 +24,7 @@ if (options.get("controls") === "0") document.body.classList.add("bare");
 
 const session = new Session();
 const {scenes, alike, ...lists} = await session.started.catch(error => {
+  document.documentElement.className = "";
   sayIn(byId("problem"), `This browser cannot run the program: ${error.message}`);
   throw error;
 });
@@ -155,7 +156,7 @@ session.onOpened = (facts, left) => {
   choicesTimer = setTimeout(updateChoices, 150);
   if (firstPlace) invite(firstPlace);
   firstPlace = null;
-  document.documentElement.classList.remove("poster");
+  document.documentElement.className = "";
 };
 
 async function updateChoices() {

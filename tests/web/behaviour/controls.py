@@ -261,7 +261,7 @@ def a_poster_is_seen_until_the_program_draws(check):
     is_seen = "document.documentElement.className === 'poster'"
     no_program = check.browser.call("Page.addScriptToEvaluateOnNewDocument",
                                     source="Worker = class { postMessage() {} };")
-    for address, expected in [("", True), ("?embed=1", True), ("#article", False)]:
+    for address, expected in [("", True), ("?embed=1", False), ("#article", False)]:
         check.browser.show_address("about:blank")
         check.browser.show_address(check.path.as_uri() + address)
         check.expect(f"a poster at {address}", check.page.value(is_seen), expected)
