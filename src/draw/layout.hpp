@@ -183,14 +183,14 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
   }};
 }
 
-/// At time 0: the sum of mass · velocity² of all movable bodies.
+/// The sum of mass · velocity² of all movable bodies at time 0.
 Rational twice_energy(const System& system);
-/// The same of a state. It may be beyond the range of a double.
-/// @param masses  movable_masses()
+/// The same sum in a state. It may be beyond the range of a double.
+/// @param masses  masses_or_zero()
 mpf_class twice_energy(const std::vector<mpf_class>& masses, const State& state);
-/// Of all bodies; 0 if one is immovable.
-std::vector<mpf_class> movable_masses(const System& system);
-/// The largest in a film. If something is driven, it is looked for at 65 instants only.
+/// The mass of each body; 0 for an immovable one.
+std::vector<mpf_class> masses_or_zero(const System& system);
+/// The largest in a film. If something is driven, only some instants are tried.
 Rational most_twice_energy(const Scene& scene, const Log& log);
 /// Of all movable bodies; 0 if there is none.
 Rational heaviest_mass(const System& system);

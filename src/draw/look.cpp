@@ -284,34 +284,31 @@ std::vector<std::size_t> color_places(const Scene& scene) {
   const std::vector<Body>& bodies = scene.system.bodies;
   std::vector<Rational> masses;  // each once, from the lightest
   masses.reserve(bodies.size());
-  const auto has_its_color = [&](std::size_t i) {
+  const auto needs_no_place = [&](std::size_t i) {
     return !bodies[i].mass || scene.styles[i].color;
   };
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!has_its_color(i)) masses.push_back(*bodies[i].mass);
+    if (!needs_no_place(i)) masses.push_back(*bodies[i].mass);
   }
   const bool are_many = masses.size() > kMostColored;
   std::ranges::sort(masses);
   masses.erase(std::unique(masses.begin(), masses.end()), masses.end());
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> places(bodies.size());
   std::size_t movable = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
-    if (has_its_color(i)) {
-      places.push_back(0);
-      continue;
-    }
+    if (needs_no_place(i)) continue;
     const auto found = std::ranges::lower_bound(masses, *body.mass);
     const auto rank = static_cast<std::size_t>(found - masses.begin());
     const bool is_heaviest = masses.size() > 1 && rank + 1 == masses.size();
     if (body.name == "blue" || body.name == "red") {
-      places.push_back(body.name == "red" ? 1 : 0);
+      places[i] = body.name == "red" ? 1 : 0;
     } else if (are_many || is_heaviest) {
-      places.push_back(is_heaviest ? 1 : 0);
+      places[i] = is_heaviest ? 1 : 0;
     } else if (masses.size() > 1) {
-      places.push_back(rank == 0 ? 0 : 2 + (rank - 1) % kOnDark.size());
+      places[i] = rank == 0 ? 0 : 2 + (rank - 1) % kOnDark.size();
     } else {
-      places.push_back(movable++ % (2 + kOnDark.size()));
+      places[i] = movable++ % (2 + kOnDark.size());
     }
   }
   return places;

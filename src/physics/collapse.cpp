@@ -16,7 +16,7 @@ namespace {
 
 /// So many collisions of a body within the window.
 constexpr std::size_t kLeastSteps = 32;
-/// The same of discs at once, all at one instant.
+/// So many collisions of a disc at one instant, if contacts are at once.
 constexpr std::size_t kLeastAtOnce = 1024;
 /// Most that is left of the speed with which bodies part, if they are not three on a line. What
 /// meets as often in a corner, and almost elastically, keeps more.

@@ -78,7 +78,7 @@ void require_elastic(const System& system) {
 
 std::unique_ptr<Stepper> make_event_stepper(const System& system) {
   require_elastic(system);
-  // Discs of which nobody has said it are in order, too.
+  // If a scene of discs does not say how contacts are taken, this engine takes them in order.
   if (system.contacts == Contacts::at_once) {
     throw UsageError("event loop: it takes contacts in order; leave out --engine events");
   }

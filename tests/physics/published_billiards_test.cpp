@@ -4,6 +4,7 @@
 #include <piblocks/log.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "physics/published_cases.hpp"
@@ -11,10 +12,13 @@
 namespace piblocks {
 namespace {
 
+/// @param other  with unit disc 0 at rest in the origin
+System beside_unit_disc(const Body& other) { return discs({disc({0, 0}), other}); }
+
 // python-billiards, tests/test_physics.py.
 TEST(PublishedCases, TimesOfImpactOfTwoBalls) {
-  const Rational small(kRootTwo - 1);
-  const Rational root(kRootTwo);
+  const Rational small(std::numbers::sqrt2 - 1);
+  const Rational root(std::numbers::sqrt2);
   expect_hits({
       {"toi_ball_ball: head-on", beside_unit_disc(disc({5, 0}, {-1, 0})), 3},
       {"toi_ball_ball: only relative coordinates matter",

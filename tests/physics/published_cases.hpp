@@ -50,13 +50,6 @@ inline Body fixed(const ExactVector& position, const Rational& radius = 1) {
   return disc(position, {}, radius, std::nullopt);
 }
 
-inline std::vector<Wall> box(const Rational& low, const Rational& high) {
-  return {{"left", {low, 0}, {1, 0}},
-          {"right", {high, 0}, {-1, 0}},
-          {"bottom", {0, low}, {0, 1}},
-          {"top", {0, high}, {0, -1}}};
-}
-
 inline Motion velocity(double x, double y) { return {{kNotSaid, kNotSaid}, {x, y}}; }
 
 inline void expect_said(const char* what, double said, double ours, double tolerance) {
@@ -124,10 +117,5 @@ inline void expect_times(const char* source, const Log& log, const std::vector<d
     expect_said("time", times[k], log.collision(Integer(k + 1)).time.hi, tolerance);
   }
 }
-
-inline const double kRootTwo = std::sqrt(2);
-
-/// @param other  with unit disc 0 at rest in the origin
-inline System beside_unit_disc(const Body& other) { return discs({disc({0, 0}), other}); }
 
 }  // namespace piblocks

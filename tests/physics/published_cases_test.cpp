@@ -13,6 +13,13 @@
 namespace piblocks {
 namespace {
 
+std::vector<Wall> box(const Rational& low, const Rational& high) {
+  return {{"left", {low, 0}, {1, 0}},
+          {"right", {high, 0}, {-1, 0}},
+          {"bottom", {0, low}, {0, 1}},
+          {"top", {0, high}, {0, -1}}};
+}
+
 // HardSphereDynamics.jl, test/runtests.jl.
 TEST(PublishedCases, HardSpheres) {
   expect_hits({
@@ -30,14 +37,14 @@ TEST(PublishedCases, SmoothDiscsInABox) {
   const std::vector<Wall> twenty = box(-20, 20);
   std::vector<Wall> diagonal = box(-10, 10);
   diagonal.push_back({"diagonal", {0, 0}, {1, -1}});
-  const double half_root = kRootTwo / 2;
+  const double half_root = std::numbers::sqrt2 / 2;
   expect_hits({
       {"wall_col_vertical", discs({disc({3, 3}, {-1, 1})}, ten), 2, {{{1, 5}, {1, 1}}}},
       {"wall_col_horizontal", discs({disc({3, 7}, {1, 1})}, ten), 2, {{{5, 9}, {1, -1}}}},
       {"wall_col_diagonal",
        discs({disc({3, 0}, {0, 1})}, diagonal),
-       3 - kRootTwo,
-       {{{3, 3 - kRootTwo}, {1, 0}}}},
+       3 - std::numbers::sqrt2,
+       {{{3, 3 - std::numbers::sqrt2}, {1, 0}}}},
       {"col_vertical",
        discs({disc({3, 0}, {0, 1}), disc({3, 10}, {0, -1})}, twenty),
        4,
@@ -47,9 +54,9 @@ TEST(PublishedCases, SmoothDiscsInABox) {
        4,
        {{{4, 0}, {-1, 0}}, {{6, 0}, {1, 0}}}},
       {"col_off_centre",
-       discs({disc({0, 0}, {1, 0}), disc({10, Rational(kRootTwo)}, {-1, 0})}, twenty),
+       discs({disc({0, 0}, {1, 0}), disc({10, Rational(std::numbers::sqrt2)}, {-1, 0})}, twenty),
        5 - half_root,
-       {{{5 - half_root, 0}, {0, -1}}, {{5 + half_root, kRootTwo}, {0, 1}}}},
+       {{{5 - half_root, 0}, {0, -1}}, {{5 + half_root, std::numbers::sqrt2}, {0, 1}}}},
       {"col_speed",
        discs({disc({0, 0}, {2, 0}), disc({10, 0}, {-3, 0})}, twenty),
        1.6,
@@ -232,7 +239,7 @@ System sinai(double radius, const ExactVector& from, const ExactVector& along) {
 // dpsanders/BilliardModels.jl, test/test_BilliardModels.jl.
 TEST(PublishedCases, PointsAmongWallsAndDiscs) {
   const Rational point(kPoint);
-  const double off = kPoint * kRootTwo;
+  const double off = kPoint * std::numbers::sqrt2;
   const Wall plane = {"plane", {Rational(off), 0}, {-1, -1}};
   const Wall finite = {"plane", {0, Rational(off)}, {1, -1}};
   System table = sinai(0.2, {Rational(1, 5), 0}, {1, 0});

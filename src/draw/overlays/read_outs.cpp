@@ -180,7 +180,7 @@ ReadOut changing_energy(const LayoutContext& context, int digits) {
   const bool has_first = is_driven(system) && !is_elastic(system);
   const std::string widest = text(most, has_first ? begin : mpf_class(2 * most));
   return {"energy", widest,
-          [=, masses = movable_masses(system)](const FrameState& shown) {
+          [=, masses = masses_or_zero(system)](const FrameState& shown) {
             return text(twice_energy(masses, shown.state) / 2, begin);
           },
           context.palette.text};

@@ -202,7 +202,7 @@ mpf_class twice_energy(const std::vector<mpf_class>& masses, const State& state)
   return sum;
 }
 
-std::vector<mpf_class> movable_masses(const System& system) {
+std::vector<mpf_class> masses_or_zero(const System& system) {
   std::vector<mpf_class> masses;
   for (const Body& body : system.bodies) masses.emplace_back(body.mass.value_or(0));
   return masses;
@@ -212,7 +212,7 @@ Rational most_twice_energy(const Scene& scene, const Log& log) {
   Rational most = twice_energy(scene.system);
   if (!is_driven(scene.system) || !has_span(scene, log)) return most;
   const Span span = span_of(scene, log);
-  const std::vector<mpf_class> masses = movable_masses(scene.system);
+  const std::vector<mpf_class> masses = masses_or_zero(scene.system);
   constexpr int kInstants = 64;
   for (int i = 0; i <= kInstants; ++i) {
     const Rational time = span.from + (span.to - span.from) * i / kInstants;

@@ -26,8 +26,7 @@ void Stepper::plan(std::uint32_t disc) {
   plans_[disc] = Plan{};
   plans_[disc].crossing = cells_.crossing_time(disc);
   if (system_.is_movable(disc)) {
-    for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
-    for (const std::uint32_t other : discs_near(disc)) plan_meeting(disc, other);
+    visit_all(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
   }
   if (is_certain()) plan_end_of_margin(disc);
   enqueue(disc);
@@ -39,7 +38,9 @@ const std::vector<std::uint32_t>& Stepper::discs_near(std::uint32_t body) {
   Near& near = near_[0];
   if (near.body == body) return near.discs;
   near.discs.clear();
-  cells_.visit_near(body, [&](std::uint32_t other) { near.discs.push_back(other); });
+  cells_.visit_near(body, [&](std::uint32_t other) {
+    if (other != body) near.discs.push_back(other);
+  });
   near.body = body;
   return near.discs;
 }
@@ -313,13 +314,11 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
 /// Before which time a disc meets nobody, except one.
 double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) {
   double soonest = kNever;
-  const auto look_at = [&](std::uint32_t near) {
-    if (near == body || near == excepted || have_just_met(body, near)) return;
+  visit_all(body, [&](std::uint32_t near) {
+    if (near == excepted || have_just_met(body, near)) return;
     if (are_independent(near, excepted)) return;
     soonest = std::min(soonest, earliest(body, near));
-  };
-  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
-  for (const std::uint32_t near : discs_near(body)) look_at(near);
+  });
   return soonest;
 }
 

@@ -34,10 +34,10 @@ struct Plan {
   Rival rival = {};
 };
 
-/// A disc, and those that may be near it.
+/// The discs that may be near one.
 struct Near {
   std::uint32_t body = kNobody;
-  std::vector<std::uint32_t> discs = {};  ///< itself among them, and some twice
+  std::vector<std::uint32_t> discs = {};  ///< some twice
 };
 
 /// Bodies that touch at one instant.
@@ -131,7 +131,7 @@ class Stepper final : public DiscStepper {
   bool touch(double radius, Vector place, std::uint32_t partner, double time) const;
   Touch touch_of(std::uint32_t disc, std::uint32_t partner, double time) const;
   std::uint64_t rank_of(std::uint32_t disc, std::uint32_t partner) const;
-  /// @returns what stays as it is until the next call
+  /// @returns a list that is valid until the next call
   const std::vector<std::uint32_t>& discs_near(std::uint32_t body);
   void forget_near() { near_[0].body = near_[1].body = kNobody; }
   template <typename Visit>
@@ -187,9 +187,7 @@ bool Stepper::is_stale(const Planned& planned) const {
 template <typename Visit>
 void Stepper::visit_all(std::uint32_t body, Visit visit) {
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
-  for (const std::uint32_t other : discs_near(body)) {
-    if (other != body) visit(other);
-  }
+  for (const std::uint32_t other : discs_near(body)) visit(other);
 }
 
 }  // namespace piblocks::discs

@@ -21,7 +21,7 @@ export class Bodies {
   #session;
   #facts = null;
   #room = null;
-  /** Whether somebody waits for the program to say where there is room. */
+  /** Whether Add was pressed before the program said where there is room. */
   #isAdding = false;
   #cells = [];
   #table = element("table");
@@ -58,7 +58,10 @@ export class Bodies {
    *   while the program has not said it */
   setRoom(room) {
     this.#room = room;
-    if (room === undefined) return;
+    if (room === undefined) {
+      this.#isAdding = false;
+      return;
+    }
     this.#add.disabled = !room;
     this.#add.title = room ? "" : "There is no room for another one.";
     if (this.#isAdding) this.#addRow();

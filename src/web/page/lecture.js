@@ -8,6 +8,8 @@ const BAR_ms = 2000;
 /** More pixels than most projectors have; in fewer than the least there is no room for text. */
 const MOST_PIXELS = 3840 * 2160;
 const LEAST_SIDE_px = 1280;
+/** As in live.css. */
+const UPRIGHT_TELEPHONE = "(max-width: 639.98px) and (max-aspect-ratio: 639/640)";
 const even = length => 2 * Math.round(length / 2);
 
 /** The pixels of an area of the page. */
@@ -50,8 +52,7 @@ export class Lecture {
       const bar_px = classList.contains("bare") ? 0 : 6 * 16;
       this.#session.setScreen(pixelsOf(innerWidth, Math.max(innerHeight - bar_px, innerWidth / 3)));
     } else {
-      const isUpright = innerWidth < 640 && innerHeight > innerWidth;
-      this.#session.setScreen(isUpright ? "1080x1350" : "");
+      this.#session.setScreen(matchMedia(UPRIGHT_TELEPHONE).matches ? "1080x1350" : "");
     }
   }
 

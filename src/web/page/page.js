@@ -45,7 +45,7 @@ let busyTimer = null;
 let textTimer = null;
 let addressTimer = null;
 let choicesTimer = null;
-/** The facts of the scene whose choices are known. */
+/** The facts of the scene whose choices are known or asked for. */
 let choicesOf = null;
 /** Whether somebody has typed what the program has not seen, or has refused. */
 let isTextNewer = false;
@@ -153,10 +153,10 @@ session.onOpened = (facts, left) => {
   updateScene();
   document.body.dataset.hasChoices = "false";  // for tests, which wait for it
   clearTimeout(choicesTimer);
+  choicesOf = null;
   choicesTimer = setTimeout(updateChoices, 150);
   if (firstPlace) invite(firstPlace);
   firstPlace = null;
-  document.documentElement.className = "";
 };
 
 async function updateChoices() {
@@ -168,9 +168,13 @@ async function updateChoices() {
     choicesTimer = setTimeout(updateChoices, 150);
     return;
   }
-  const choices = await session.choices().catch(() => ({}));
-  if (facts !== session.facts) return;
   choicesOf = facts;
+  const choices = await session.choices().catch(() => null);
+  if (facts !== session.facts) return;
+  if (!choices) {
+    choicesOf = null;
+    return;
+  }
   fields.disable(choices);
   bodies.setRoom(choices.room);
   document.body.dataset.hasChoices = "true";
@@ -223,6 +227,7 @@ session.onBusy = isBusy => {
   clearTimeout(busyTimer);
   if (isBusy) busyTimer = setTimeout(() => byId("busy").hidden = false, 400);
   else byId("busy").hidden = true;
+  if (!isBusy) document.documentElement.className = "";  // no poster: the program has drawn, or failed
 };
 
 byId("stop").addEventListener("click", () => {

@@ -230,7 +230,7 @@ export class Session {
     this.onPicture(picture);
   }
 
-  /** Does a task that is no wish. Only Stop ends it. */
+  /** Makes a file, or asks for choices, after all wishes. Only Stop ends it. */
   async #callAside(task, details = {}) {
     await this.#work;
     this.#replaceIfBroken();

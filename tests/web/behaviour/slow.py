@@ -46,6 +46,8 @@ def stopping_brings_back_the_scene(check):
     check.expect("pixels of the PNG that differ", check.page.differences(picture), 0)
     check.expect("the place", check.time(), 2)
     _expect_usable(check, "After Stop")
+    check.open_fields()
+    check.page.value("check.until('choices', () => document.body.dataset.hasChoices === 'true').then(() => true)")
 
 
 def picture_is_saved_at_once_after_stopping(check):
