@@ -22,14 +22,14 @@ constexpr std::array kOverlays{"digits",   "masses", "velocities", "energy",
                                "momentum", "time",   "ruler"};
 constexpr std::array kPanels{"velocity", "position", "unfolded",     "time",     "count",
                              "ellipse",  "mirrors",  "conservation", "certainty"};
-constexpr std::array kThemes{"lecture", "lecture-light", "article", "print"};
+constexpr std::array kArranged{"lecture", "lecture-light", "article", "print"};
 constexpr std::array kDigits{1, 3, 8};
 
 /// A raised or lowered part of a formula, in parts of its line.
 constexpr double kScriptScale = 0.65;
 /// Places are whole pixels where that makes them sharp.
 constexpr double kRounded_px = 0.5;
-constexpr double kRounding = 1e-6;
+constexpr double kRounding_px = 1e-6;
 
 struct Placed : Box {
   double baseline;
@@ -102,7 +102,7 @@ class Arrangement {
                             shows(text.id, ItemId::lit_count);
     const double margin = view_.theme == Theme::article && is_counter
                               ? 0  // of the article's own picture
-                              : sizes_.margin - kRounding;
+                              : sizes_.margin - kRounding_px;
     // What hangs below the line may reach into the margin.
     return text.x >= margin && text.right() <= list_.width_px - margin && text.y >= margin / 2 &&
            text.baseline <= list_.height_px - margin + kRounded_px;
@@ -110,10 +110,10 @@ class Arrangement {
 
   /// Whether a text has the least size of type, or is a script beside a text that has it.
   bool can_be_read(const Placed& text) const {
-    const double least = style::kLeastType * sizes_.short_side - kRounding;
+    const double least = style::kLeastType * sizes_.short_side - kRounding_px;
     return text.size_px >= least || std::ranges::any_of(texts_, [&](const Placed& base) {
              return base.size_px >= least &&
-                    std::abs(base.size_px * kScriptScale - text.size_px) < kRounding &&
+                    std::abs(base.size_px * kScriptScale - text.size_px) < kRounding_px &&
                     text.x >= base.x && text.x < base.right() + 4 * base.size_px;
            });
   }
@@ -196,7 +196,7 @@ class Arrangements : public testing::Test {
       return names.at(static_cast<std::size_t>(random_.integer(0, std::ssize(names) - 1)));
     };
     return {any(kShapes),
-            any(kThemes),
+            any(kArranged),
             any(kDigits),
             std::move(overlays),
             std::move(panels),

@@ -14,9 +14,6 @@
 namespace piblocks {
 namespace {
 
-constexpr Color kWhite = {255, 255, 255};
-constexpr Color kGreen = {10, 200, 30};
-
 void expect_colors(const Canvas& canvas, std::uint32_t color,
                    const std::vector<std::pair<int, int>>& places) {
   for (const auto& [x, y] : places) EXPECT_EQ(color_at(canvas, x, y), color) << x << ", " << y;

@@ -14,12 +14,21 @@
 #include "draw/composition.hpp"
 #include "draw/found_items.hpp"
 #include "draw/layout.hpp"
+#include "draw/look.hpp"
 #include "support/state_after.hpp"
 
 namespace piblocks {
 
 inline constexpr std::array kThemeNames{"article", "lecture", "lecture-light", "chalkboard",
                                         "dark",    "print",   "colorblind"};
+
+inline const Palette kLecturePalette = palette_of(Theme::lecture);
+
+/// The size of a picture, and its diagrams.
+struct PanelShape {
+  const char* size;
+  const char* panels;
+};
 
 using Setting = std::pair<const char*, std::string>;
 using Settings = std::vector<Setting>;

@@ -14,7 +14,7 @@ namespace piblocks {
 namespace {
 
 constexpr double kSize_px = 100;
-constexpr double kRounding = 1e-9;
+constexpr double kRounding_em = 1e-9;
 
 class Formulas : public testing::Test {
  protected:
@@ -38,10 +38,11 @@ class Formulas : public testing::Test {
 };
 
 TEST_F(Formulas, AreAsWideAsTheirParts) {
-  EXPECT_NEAR(set_.text("mirrors").width_em(), width_em(Face::text, "mirrors"), kRounding);
-  EXPECT_NEAR(set_.digits("31").width_em(), width_em(Face::digits, "31"), kRounding);
+  EXPECT_NEAR(set_.text("mirrors").width_em(), width_em(Face::text, "mirrors"), kRounding_em);
+  EXPECT_NEAR(set_.digits("31").width_em(), width_em(Face::digits, "31"), kRounding_em);
   const Formula sum = set_.text("2") + set_.italic("θ");
-  EXPECT_NEAR(sum.width_em(), set_.text("2").width_em() + set_.italic("θ").width_em(), kRounding);
+  EXPECT_NEAR(sum.width_em(), set_.text("2").width_em() + set_.italic("θ").width_em(),
+              kRounding_em);
   const std::vector<TextItem> texts = texts_of(sum);
   ASSERT_EQ(texts.size(), 2U);
   EXPECT_EQ(texts[0].origin.x, 0);

@@ -17,6 +17,9 @@
 
 namespace piblocks {
 
+inline constexpr Color kWhite = {255, 255, 255};
+inline constexpr Color kGreen = {10, 200, 30};
+
 inline ItemId id_of(const DrawItem& item) {
   return std::visit([](const auto& any) { return any.id; }, item);
 }

@@ -21,8 +21,6 @@ Settings lecture(const char* panels, const Settings& more = {}) {
          more;
 }
 
-const Palette kPalette = palette_of(Theme::lecture);
-
 TEST(CountCurve, IsTheLogs) {
   for (const int digits : {1, 2, 3, 5, 20}) {
     const auto log = make_pair_log(article_system(digits));
@@ -160,7 +158,7 @@ TEST(CountPanel, IsFilledUpToThePresent) {
     const Point present = shown.discs.front().centre;
     std::vector<PathItem> strips;
     for (const PathItem& path : shown.paths) {
-      if (path.fill == kPalette.shade) strips.push_back(path);
+      if (path.fill == kLecturePalette.shade) strips.push_back(path);
     }
     double right = 0;
     for (const PathItem& strip : strips) right = std::max(right, strip.points.bounds().right());
@@ -371,12 +369,7 @@ TEST(GraphPanels, HoldAnySystem) {
   }
 }
 
-struct Shape {
-  const char* size;
-  const char* panels;
-};
-
-class GraphPanelShapes : public testing::TestWithParam<Shape> {};
+class GraphPanelShapes : public testing::TestWithParam<PanelShape> {};
 
 /// Texts are apart from each other, and all is inside of the margins.
 TEST_P(GraphPanelShapes, FitTheirPlaces) {
@@ -407,15 +400,16 @@ TEST_P(GraphPanelShapes, FitTheirPlaces) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, GraphPanelShapes,
-                         testing::Values(Shape{"1280x720", "position,count"},
-                                         Shape{"1280x720", "time,conservation"},
-                                         Shape{"3840x2160", "position,time,count,conservation"},
-                                         Shape{"1080x1920", "position,time,count,conservation"},
-                                         Shape{"1080x1080", "count,conservation"},
-                                         Shape{"1080x1080", "position,time"},
-                                         Shape{"1440x1080", "position,time,count,conservation"},
-                                         Shape{"1920x1080", "position,time,count,conservation"}));
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, GraphPanelShapes,
+    testing::Values(PanelShape{"1280x720", "position,count"},
+                    PanelShape{"1280x720", "time,conservation"},
+                    PanelShape{"3840x2160", "position,time,count,conservation"},
+                    PanelShape{"1080x1920", "position,time,count,conservation"},
+                    PanelShape{"1080x1080", "count,conservation"},
+                    PanelShape{"1080x1080", "position,time"},
+                    PanelShape{"1440x1080", "position,time,count,conservation"},
+                    PanelShape{"1920x1080", "position,time,count,conservation"}));
 
 TEST(CountPanel, HasRisingIdsInTheWidestFrame) {
   const Pictures pictures(3, lecture("count", {{"view.size", "16384x400"}}));

@@ -15,7 +15,7 @@ namespace piblocks {
 namespace {
 using testing_support::contains;
 
-Settings lecture(int digits) {
+Settings without_loupe(int digits) {
   return {{"digits", std::to_string(digits)},
           {"view.theme", "lecture"},
           {"view.size", "1280x720"},
@@ -72,7 +72,7 @@ void expect_edges(const DrawList& frame, bool is_wall, bool is_flash) {
 TEST(HitMarks, AreWhereTheLogHasThem) {
   for (const int digits : {1, 2}) {
     SCOPED_TRACE(digits);
-    const Frames frames(lecture(digits));
+    const Frames frames(without_loupe(digits));
     const PairLog& log = *frames.log().pair();
     const Schedule schedule = make_schedule(frames.scene(), log);
     int arcs_seen = 0;
@@ -125,7 +125,7 @@ int glow_of(const DrawList& frame) {
 }
 
 TEST(HitMarks, GlowByTheLogarithmOfTheRate) {
-  const Frames frames(lecture(3));
+  const Frames frames(without_loupe(3));
   FrameState state = frames.state({frames.turn()});
   state.met_pairs = {kRed, kWall};
   int before = 0;
@@ -144,7 +144,7 @@ TEST(HitMarks, GlowByTheLogarithmOfTheRate) {
 
 /// Of any number of colours.
 TEST(HitMarks, GlowWhereverTheyAreTooMany) {
-  Scene scene = scene_with(lecture(1));
+  Scene scene = scene_with(without_loupe(1));
   System system{1, {}, {{"left", {0, 0}, {1, 0}}}};
   for (int i = 0; i < 40; ++i) {
     system.bodies.push_back({.position = {1 + i, 0}, .velocity = {-i, 0}, .size = Rational(1, 2)});
@@ -169,7 +169,7 @@ TEST(HitMarks, GlowWhereverTheyAreTooMany) {
 
 /// The count is largest in the frame of a hit, by 6 %, and has its size again 0.12 s later.
 TEST(HitMarks, MakeTheCountLargerForAMoment) {
-  const Frames frames(lecture(2));
+  const Frames frames(without_loupe(2));
   FrameState state = frames.state({frames.turn()});
   const auto count_at = [&](double age_s) {
     state.hits = {{1, kWall, {0, 0}, age_s, {}}};
@@ -255,7 +255,7 @@ TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
 }
 
 TEST(HitMarks, AreInTheLoupeToo) {
-  Settings settings = lecture(5);
+  Settings settings = without_loupe(5);
   settings.back() = {"show.loupe", "auto"};
   const Frames frames(settings);
   FrameState state = frames.state({frames.turn()});
@@ -293,7 +293,7 @@ TEST(Loupe, ShowsTheTurnHappening) {
   for (const auto& [digits, window] :
        {std::pair(5, "turn-1/10^6:turn+1/10^6:10^7"), {20, "turn-1/10^36:turn+1/10^36:10^37"}}) {
     SCOPED_TRACE(digits);
-    Settings settings = lecture(digits);
+    Settings settings = without_loupe(digits);
     settings.back() = {"show.loupe", "auto"};
     settings.emplace_back("time.from", "turn");
     settings.emplace_back("time.to", digits == 5 ? "turn+1/10^6" : "turn+1/10^36");

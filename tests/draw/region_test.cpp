@@ -15,8 +15,6 @@
 namespace piblocks {
 namespace {
 
-constexpr Color kWhite = {255, 255, 255};
-constexpr Color kGreen = {10, 200, 30};
 constexpr Color kBlack = {0, 0, 0};
 
 /// What a list has to be painted on.

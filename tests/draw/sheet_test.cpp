@@ -11,8 +11,6 @@
 namespace piblocks {
 namespace {
 
-constexpr Color kGreen = {10, 200, 30};
-
 /// So many pictures, green all over and beyond.
 std::vector<CaptionedPicture> green(int count, int width_px, int height_px,
                                     const std::string& caption = "t = 3.49785") {

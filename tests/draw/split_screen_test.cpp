@@ -16,9 +16,6 @@
 namespace piblocks {
 namespace {
 
-constexpr Color kWhite = {255, 255, 255};
-constexpr Color kGreen = {10, 200, 30};
-
 TEST(SplitScreen, CellsAreEqualApartAndInsideTheFrame) {
   for (const auto& [width, height] :
        {std::pair{1920, 1080}, {1080, 1920}, {301, 300}, {300, 300}, {64, 16}}) {

@@ -18,7 +18,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count) {
 }
 
 constexpr auto rectangle = item_of<RectangleItem>;
-constexpr auto text = item_of<TextItem>;
+constexpr auto text_item = item_of<TextItem>;
 
 TEST(Stage, BlocksTouchWhereTheyCollide) {
   const Pictures pictures(article_scene(3, 1920, 1080));
@@ -42,14 +42,14 @@ TEST(Stage, BlocksStandOnOneBase) {
     const auto middle = [](const TextItem& label) {
       return label.origin.y - 0.365 * label.size_px;
     };
-    const TextItem& mass = text(list, ItemId::masses);
+    const TextItem& mass = text_item(list, ItemId::masses);
     const bool is_wide = font.width_em(mass.text) * mass.size_px < 0.9 * red.width;
     if (is_wide) {
       EXPECT_NEAR(middle(mass), red.y + red.height / 2, 1e-9) << width;
     } else {
       EXPECT_LT(mass.origin.y, red.y) << "above the block";
     }
-    EXPECT_NEAR(middle(text(list, nth(ItemId::masses, 1))), blue.y + blue.height / 2, 1e-9);
+    EXPECT_NEAR(middle(text_item(list, nth(ItemId::masses, 1))), blue.y + blue.height / 2, 1e-9);
   }
 }
 
@@ -111,8 +111,8 @@ TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
       const Pictures pictures(article_scene(digits, width, height));
       const DrawList list = pictures.after(pictures.log->last());
       const Rect wall = wall_of(list);
-      const TextItem& label = text(list, ItemId::label);
-      const TextItem& count = text(list, ItemId::count);
+      const TextItem& label = text_item(list, ItemId::label);
+      const TextItem& count = text_item(list, ItemId::count);
       const double end = count.origin.x + font.width_em(count.text) * count.size_px;
       EXPECT_GT(wall.width, 0);
       EXPECT_LT(wall.width, wall.height) << "a line";
@@ -132,8 +132,8 @@ TEST(Stage, NothingMovesButTheBlocksAndTheCount) {
   const DrawList start = pictures.at(0);
   const DrawList later = pictures.at(4);
   EXPECT_EQ(wall_of(start), wall_of(later));
-  EXPECT_EQ(text(start, ItemId::label), text(later, ItemId::label));
-  EXPECT_EQ(text(start, ItemId::count).origin, text(later, ItemId::count).origin);
+  EXPECT_EQ(text_item(start, ItemId::label), text_item(later, ItemId::label));
+  EXPECT_EQ(text_item(start, ItemId::count).origin, text_item(later, ItemId::count).origin);
   EXPECT_NE(rectangle(start, ItemId::blue_block), rectangle(later, ItemId::blue_block));
 }
 
@@ -149,15 +149,15 @@ TEST(Stage, ACountBeforeTimeZeroIsWhole) {
       scene.time.to = parse_instant("1");
       const Pictures pictures(scene);
       const DrawList list = pictures.at(-20);
-      const TextItem& count = text(list, ItemId::count);
-      const TextItem& label = text(list, ItemId::label);
+      const TextItem& count = text_item(list, ItemId::count);
+      const TextItem& label = text_item(list, ItemId::label);
       const double end = count.origin.x + font.width_em(count.text) * count.size_px;
       EXPECT_GT(count.text.size(), std::size_t(digits));
       EXPECT_GT(label.origin.x, 0);
       EXPECT_NEAR(count.origin.x, label.origin.x + font.width_em(label.text) * label.size_px, 1e-6);
       EXPECT_NEAR(label.origin.x, 640 - end, 1e-6) << "in the middle";
       if (from == std::string_view("0")) continue;
-      EXPECT_EQ(text(pictures.at(0), ItemId::label), label) << "nothing moves during the film";
+      EXPECT_EQ(text_item(pictures.at(0), ItemId::label), label) << "nothing moves during the film";
     }
   }
 }

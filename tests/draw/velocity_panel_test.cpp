@@ -46,17 +46,15 @@ struct VelocityPictures : Pictures {
   }
 };
 
-const Palette kPalette = palette_of(Theme::lecture);
-
 /// Axes cross in its centre; its outline passes through angle 0 and half a turn.
 struct Frame {
   explicit Frame(const Shown& figure) {
     const auto outline = std::ranges::find_if(figure.paths, [](const PathItem& path) {
-      return path.closed && path.stroke && path.stroke->color == kPalette.muted;
+      return path.closed && path.stroke && path.stroke->color == kLecturePalette.muted;
     });
     const Rect& box = outline->points.bounds();
     red = blue = box.width / 2;
-    centre = {box.x + red, figure.lines_of(kPalette.grid).front().points.view()[0].y};
+    centre = {box.x + red, figure.lines_of(kLecturePalette.grid).front().points.view()[0].y};
   }
   Point at(const Point& unit) const { return {centre.x + red * unit.x, centre.y - blue * unit.y}; }
 
@@ -80,8 +78,8 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
   for (Integer count = 0; count <= log.last(); ++count) {
     const Shown figure(pictures.after(count));
     const Frame circle(figure);
-    const auto red = figure.lines_of(kPalette.red.line);
-    const auto blue = figure.lines_of(kPalette.blue.line);
+    const auto red = figure.lines_of(kLecturePalette.red.line);
+    const auto blue = figure.lines_of(kLecturePalette.blue.line);
     EXPECT_EQ(Integer(static_cast<unsigned long>(red.size() + blue.size())), count);
     std::map<CollisionKind, std::size_t> seen;
     const PairState start = log.blocks_at(0);
@@ -104,10 +102,11 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
 }
 
 bool is_of_a_collision(const DrawItem& item) {
-  if (const auto* disc = std::get_if<DiscItem>(&item)) return disc->fill == kPalette.text;
+  if (const auto* disc = std::get_if<DiscItem>(&item)) return disc->fill == kLecturePalette.text;
   const auto* path = std::get_if<PathItem>(&item);
   if (path == nullptr || !path->stroke) return false;
-  return path->stroke->color == kPalette.red.line || path->stroke->color == kPalette.blue.line;
+  return path->stroke->color == kLecturePalette.red.line ||
+         path->stroke->color == kLecturePalette.blue.line;
 }
 
 TEST_P(Starts, ChordsStayWhatTheyAre) {
@@ -138,7 +137,7 @@ TEST_P(Starts, TheEndIsInTheWedge) {
     const Shown figure(pictures.after(count));
     const Frame circle(figure);
     const auto wedge = std::ranges::find_if(figure.paths, [](const PathItem& path) {
-      return path.fill && path.fill->green == kPalette.done.green && !path.stroke &&
+      return path.fill && path.fill->green == kLecturePalette.done.green && !path.stroke &&
              path.fill->alpha < 255;
     });
     ASSERT_EQ(wedge != figure.paths.end(), count == pictures.log->last()) << count;
@@ -179,8 +178,8 @@ TEST(VelocityPanel, CountsFromTheScenesBeginning) {
         count < log.first_index() ? log.blocks_at(-10) : state_after(log, count);
     const Shown figure(pictures.of(state, 0));
     const Frame circle(figure);
-    const auto chords =
-        figure.lines_of(kPalette.red.line).size() + figure.lines_of(kPalette.blue.line).size();
+    const auto chords = figure.lines_of(kLecturePalette.red.line).size() +
+                        figure.lines_of(kLecturePalette.blue.line).size();
     EXPECT_EQ(Integer(static_cast<unsigned long>(chords)), count - before);
     expect_near(present_of(figure), circle.at(pictures.unit(state.blue, state.red)), "now", count);
     expect_near(figure.discs.at(chords).centre, present_of(figure), "dot", count);
@@ -204,10 +203,10 @@ TEST(VelocityPanel, ShowsThatNothingMoves) {
   const Shown figure(
       VelocityPictures({{"digits", "2"}, {"red.velocity", "0"}, {"time.to", "1"}}).after(0));
   ASSERT_EQ(figure.discs.size(), 1U);
-  const auto axes = figure.lines_of(kPalette.grid);
+  const auto axes = figure.lines_of(kLecturePalette.grid);
   ASSERT_EQ(axes.size(), 2U);
   EXPECT_EQ(present_of(figure), (Point{axes[1].points.view()[0].x, axes[0].points.view()[0].y}));
-  EXPECT_TRUE(figure.lines_of(kPalette.muted).empty()) << "there is no circle";
+  EXPECT_TRUE(figure.lines_of(kLecturePalette.muted).empty()) << "there is no circle";
 }
 
 double area_of(const PathItem& path) {
@@ -237,7 +236,7 @@ TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
       const Frame circle(figure);
       double area = 0;
       for (const PathItem& path : figure.paths) {
-        if (path.fill == kPalette.shade) area += area_of(path);
+        if (path.fill == kLecturePalette.shade) area += area_of(path);
       }
       const Point from = pictures.unit({0, to_double(pictures.scene.system.bodies[0].velocity[0])},
                                        {0, to_double(pictures.scene.system.bodies[1].velocity[0])});
@@ -248,8 +247,8 @@ TEST(VelocityPanel, ManyChordsAreTheAreaThatTheyCover) {
           segment(std::abs(std::atan2(to.y, to.x))) - segment(std::abs(std::atan2(from.y, from.x)));
       // The last chord may be slanted, by two wedge angles.
       EXPECT_NEAR(area / (circle.red * circle.red), expected, 3 * pictures.theta()) << count;
-      EXPECT_LT(figure.lines_of(kPalette.red.line).size(), 2U);
-      EXPECT_LT(figure.lines_of(kPalette.blue.line).size(), 2U);
+      EXPECT_LT(figure.lines_of(kLecturePalette.red.line).size(), 2U);
+      EXPECT_LT(figure.lines_of(kLecturePalette.blue.line).size(), 2U);
     }
   }
 }
@@ -286,8 +285,10 @@ TEST(EllipsePanel, FollowsOneMapToTheCircle) {
         expect_near(figure.discs[static_cast<std::size_t>(k)].centre,
                     ellipse.at(pictures.unit(collision.blue, collision.red)), "dot", k);
       }
-      EXPECT_EQ(figure.lines_of(kPalette.red.line).size(), static_cast<std::size_t>(count + 1) / 2);
-      EXPECT_EQ(figure.lines_of(kPalette.blue.line).size(), static_cast<std::size_t>(count) / 2);
+      EXPECT_EQ(figure.lines_of(kLecturePalette.red.line).size(),
+                static_cast<std::size_t>(count + 1) / 2);
+      EXPECT_EQ(figure.lines_of(kLecturePalette.blue.line).size(),
+                static_cast<std::size_t>(count) / 2);
     }
   }
 }
@@ -355,16 +356,12 @@ TEST(EllipsePanel, IsTheCircleInTheEnd) {
   const Shown circle(VelocityPictures(Settings{{"digits", "2"}}).after(17));
   const Shown ellipse(VelocityPictures(Settings{{"digits", "2"}}, "ellipse").after(17));
   EXPECT_TRUE(std::ranges::equal(circle.discs, ellipse.discs));
-  EXPECT_EQ(circle.lines_of(kPalette.red.line), ellipse.lines_of(kPalette.red.line));
-  EXPECT_EQ(circle.lines_of(kPalette.blue.line), ellipse.lines_of(kPalette.blue.line));
+  EXPECT_EQ(circle.lines_of(kLecturePalette.red.line), ellipse.lines_of(kLecturePalette.red.line));
+  EXPECT_EQ(circle.lines_of(kLecturePalette.blue.line),
+            ellipse.lines_of(kLecturePalette.blue.line));
 }
 
-struct Shape {
-  const char* size;
-  const char* panels;
-};
-
-class Shapes : public testing::TestWithParam<Shape> {};
+class VelocityPanelShapes : public testing::TestWithParam<PanelShape> {};
 
 /// The items of the first panel alone.
 DrawList first_panel(DrawList list) {
@@ -375,7 +372,7 @@ DrawList first_panel(DrawList list) {
   return list;
 }
 
-TEST_P(Shapes, HoldThePanelsWithoutOverlaps) {
+TEST_P(VelocityPanelShapes, HoldThePanelsWithoutOverlaps) {
   const Fonts fonts;
   for (const char* digits : {"1", "2", "3", "5", "8", "13", "20"}) {
     const VelocityPictures pictures({{"digits", digits}, {"view.size", GetParam().size}},
@@ -394,7 +391,7 @@ TEST_P(Shapes, HoldThePanelsWithoutOverlaps) {
   }
 }
 
-TEST_P(Shapes, LetTheCircleFillThePanel) {
+TEST_P(VelocityPanelShapes, LetTheCircleFillThePanel) {
   const VelocityPictures pictures({{"digits", "2"}, {"view.size", GetParam().size}},
                                   GetParam().panels);
   const Shown figure(first_panel(pictures.after(3)));
@@ -407,13 +404,14 @@ TEST_P(Shapes, LetTheCircleFillThePanel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Aspects, Shapes,
-    testing::Values(Shape{"1280x720", "velocity"}, Shape{"1280x720", "velocity,time"},
-                    Shape{"1280x720", "ellipse,velocity"}, Shape{"3840x2160", "velocity,unfolded"},
-                    Shape{"1080x1920", "velocity,time"}, Shape{"1080x1920", "ellipse,time,count"},
-                    Shape{"1080x1080", "velocity"}, Shape{"1080x1080", "ellipse,unfolded"},
-                    Shape{"1440x1080", "velocity,unfolded,time"}, Shape{"2560x1080", "velocity"},
-                    Shape{"640x360", "velocity,time"}),
+    Aspects, VelocityPanelShapes,
+    testing::Values(
+        PanelShape{"1280x720", "velocity"}, PanelShape{"1280x720", "velocity,time"},
+        PanelShape{"1280x720", "ellipse,velocity"}, PanelShape{"3840x2160", "velocity,unfolded"},
+        PanelShape{"1080x1920", "velocity,time"}, PanelShape{"1080x1920", "ellipse,time,count"},
+        PanelShape{"1080x1080", "velocity"}, PanelShape{"1080x1080", "ellipse,unfolded"},
+        PanelShape{"1440x1080", "velocity,unfolded,time"}, PanelShape{"2560x1080", "velocity"},
+        PanelShape{"640x360", "velocity,time"}),
     [](const auto& test) {
       std::string name = std::string(test.param.size) + '_' + test.param.panels;
       std::ranges::replace(name, ',', '_');

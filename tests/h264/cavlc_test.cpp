@@ -19,7 +19,7 @@
 namespace piblocks::h264 {
 namespace {
 
-using Levels = std::vector<std::int16_t>;
+using BlockLevels = std::vector<std::int16_t>;
 
 std::string text_of(const Code& code) {
   std::string text;
@@ -147,7 +147,7 @@ class Decoder {
  public:
   explicit Decoder(std::string_view bits) : rest_(bits) {}
 
-  Levels read_block(std::size_t size, int context);
+  BlockLevels read_block(std::size_t size, int context);
   std::string_view rest() const { return rest_; }
 
  private:
@@ -218,10 +218,10 @@ std::vector<int> Decoder::levels(std::size_t total, std::size_t trailing_ones) {
   return values;
 }
 
-Levels Decoder::read_block(std::size_t size, int context) {
+BlockLevels Decoder::read_block(std::size_t size, int context) {
   const std::size_t found = token(context);
   const std::size_t total = found / 4;
-  Levels block(size);
+  BlockLevels block(size);
   if (total == 0) return block;
   const std::vector<int> values = levels(total, found % 4);
   std::size_t zeros_left = 0;
@@ -242,7 +242,7 @@ Levels Decoder::read_block(std::size_t size, int context) {
 }
 
 /// The bits of a block that starts with `levels`, or "refused".
-std::string coded(Levels levels, int context, std::size_t size = 16) {
+std::string coded(BlockLevels levels, int context, std::size_t size = 16) {
   levels.resize(size);
   BitWriter bits;
   const auto total = static_cast<int>(size - std::size_t(std::ranges::count(levels, 0)));
@@ -261,7 +261,7 @@ TEST(Cavlc, WritesBlocksDoneByHand) {
   EXPECT_EQ(coded({-2, 0, 0, 1}, kChromaDc, 4), without_spaces("000110 0 01 00 00"));
   EXPECT_EQ(coded({1, -1, 1, 1}, kChromaDc, 4), without_spaces("0000000 001 1"));
   // No zeros in all where a block is full. After the first 1 each level has a suffix.
-  EXPECT_EQ(coded(Levels(15, 1), 8, 15),
+  EXPECT_EQ(coded(BlockLevels(15, 1), 8, 15),
             without_spaces("111011 000 1 10 10 10 10 10 10 10 10 10 10 10"));
 }
 
@@ -281,8 +281,8 @@ std::int16_t random_level(Random& random) {
   return static_cast<std::int16_t>(random.integer(-limit, limit));
 }
 
-Levels random_block(Random& random, std::size_t size) {
-  Levels levels(size);
+BlockLevels random_block(Random& random, std::size_t size) {
+  BlockLevels levels(size);
   const std::int64_t percentage = random.integer(0, 100);
   const bool is_small = random.integer(0, 1) == 0;
   for (std::int16_t& level : levels) {
@@ -292,7 +292,7 @@ Levels random_block(Random& random, std::size_t size) {
   return levels;
 }
 
-void expect_round_trip(const Levels& levels, int context) {
+void expect_round_trip(const BlockLevels& levels, int context) {
   const std::string bits = coded(levels, context, levels.size());
   if (bits == "refused") {
     const auto is_large = [](std::int16_t level) { return std::abs(level) > 2063; };
@@ -322,7 +322,7 @@ TEST(Cavlc, AllRunsComeBack) {
   for (const std::size_t size : {4u, 15u, 16u}) {
     for (std::uint32_t pattern = 0; pattern < 1U << size; ++pattern) {
       if (size > 4 && pattern % 5 != 0) continue;
-      Levels levels(size);
+      BlockLevels levels(size);
       for (std::size_t i = 0; i < size; ++i) levels[i] = pattern >> i & 1;
       expect_round_trip(levels, size == 4 ? kChromaDc : 8);
     }
@@ -332,7 +332,7 @@ TEST(Cavlc, AllRunsComeBack) {
 
 /// Levels that are written before the one in question, and the largest that it may be.
 struct Limit {
-  Levels before;
+  BlockLevels before;
   int largest;
 };
 
@@ -351,7 +351,7 @@ TEST(Cavlc, RefusesWhatTheEscapeCannotHold) {
                                      {{4, 7, 13, 25, 49, 1000}, 2528}};
   for (const auto& [before, largest] : limits) {
     for (const int sign : {1, -1}) {
-      Levels levels(before.rbegin(), before.rend());
+      BlockLevels levels(before.rbegin(), before.rend());
       levels.insert(levels.begin(), static_cast<std::int16_t>(sign * largest));
       const std::string bits = coded(levels, 0);
       ASSERT_NE(bits, "refused") << largest;

@@ -52,15 +52,11 @@ int chroma_dc_at(const Sides& sides, std::size_t x, std::size_t y) {
   return mean({above, left});
 }
 
-std::uint8_t random_byte(Random& random) {
-  return static_cast<std::uint8_t>(random.integer(0, 255));
-}
-
 Borders random_borders(Random& random, bool has_above, bool has_left) {
   Borders borders{.has_above = has_above, .has_left = has_left, .planes = {}};
   for (Border& border : borders.planes) {
-    std::ranges::generate(border.above, [&] { return random_byte(random); });
-    std::ranges::generate(border.left, [&] { return random_byte(random); });
+    std::ranges::generate(border.above, [&] { return random.byte(); });
+    std::ranges::generate(border.left, [&] { return random.byte(); });
   }
   return borders;
 }
@@ -109,8 +105,8 @@ TEST_F(IntraPredictionTest, Predicts4x4Blocks) {
     const auto step = static_cast<std::size_t>(random_.integer(1, 16));
     std::array<std::uint8_t, 4> above{};
     std::array<std::uint8_t, 64> left{};
-    std::ranges::generate(above, [&] { return random_byte(random_); });
-    std::ranges::generate(left, [&] { return random_byte(random_); });
+    std::ranges::generate(above, [&] { return random_.byte(); });
+    std::ranges::generate(left, [&] { return random_.byte(); });
     Sides sides;
     if (has_above) sides.above.assign(above.begin(), above.end());
     for (std::size_t y = 0; y < 4 && has_left; ++y) sides.left.push_back(left[y * step]);

@@ -10,13 +10,13 @@
 namespace piblocks::h264 {
 namespace {
 
-constexpr int kWidth = 3;
-constexpr int kHeight = 3;
+constexpr int kColumns = 3;
+constexpr int kRows = 3;
 
 /// Pictures of 3x3 macroblocks.
 class MacroblockStateTest : public testing::Test {
  protected:
-  MacroblockStateTest() : states_(kWidth * kHeight) {
+  MacroblockStateTest() : states_(kColumns * kRows) {
     for (MacroblockState& state : states_) {
       for (auto& total : state.total_coeff)
         total = static_cast<std::uint8_t>(random_.integer(0, 16));
@@ -25,7 +25,7 @@ class MacroblockStateTest : public testing::Test {
   }
 
   const MacroblockState& at(int x_mb, int y_mb) const {
-    return states_[static_cast<std::size_t>(y_mb * kWidth + x_mb)];
+    return states_[static_cast<std::size_t>(y_mb * kColumns + x_mb)];
   }
   Neighbours beside(int x_mb, int y_mb) const {
     return {y_mb > 0 ? &at(x_mb, y_mb - 1) : nullptr, x_mb > 0 ? &at(x_mb - 1, y_mb) : nullptr};
@@ -49,8 +49,8 @@ class MacroblockStateTest : public testing::Test {
 TEST_F(MacroblockStateTest, NcIsTheMeanOfNeighbours) {
   for (int plane = 0; plane < 3; ++plane) {
     const int side = plane == 0 ? 4 : 2;
-    for (int y = 0; y < kHeight * side; ++y) {
-      for (int x = 0; x < kWidth * side; ++x) {
+    for (int y = 0; y < kRows * side; ++y) {
+      for (int x = 0; x < kColumns * side; ++x) {
         const int a = total(plane, x - 1, y);
         const int b = total(plane, x, y - 1);
         // 9.2.1
@@ -65,8 +65,8 @@ TEST_F(MacroblockStateTest, NcIsTheMeanOfNeighbours) {
 }
 
 TEST_F(MacroblockStateTest, TheLesserOfTheNeighboursModesIsPredicted) {
-  for (int y = 0; y < 4 * kHeight; ++y) {
-    for (int x = 0; x < 4 * kWidth; ++x) {
+  for (int y = 0; y < 4 * kRows; ++y) {
+    for (int x = 0; x < 4 * kColumns; ++x) {
       // 8.3.1.1: DC if one of the two does not exist.
       const int expected = x > 0 && y > 0 ? std::min(mode(x - 1, y), mode(x, y - 1)) : 2;
       EXPECT_EQ(predicted_mode(at(x / 4, y / 4), beside(x / 4, y / 4), {x % 4, y % 4}), expected)

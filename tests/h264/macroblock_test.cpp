@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "h264/bit_text.hpp"
+#include "h264/random_pictures.hpp"
 #include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
@@ -19,13 +20,9 @@ constexpr std::size_t kMostBits = 3200;
 /// The largest difference that may stay uncorrected.
 int cap(int qp) { return 1 + (1 << qp / 6) / 4; }
 
-std::uint8_t byte(std::int64_t value) {
-  return static_cast<std::uint8_t>(std::clamp<std::int64_t>(value, 0, 255));
-}
-
 Samples flat(int value) {
   Samples samples;
-  samples.values.fill(byte(value));
+  samples.values.fill(clamped(value));
   return samples;
 }
 
@@ -38,7 +35,8 @@ Samples text(Random& random) {
 
 Samples noise(Random& random, int base, int most) {
   Samples samples;
-  std::ranges::generate(samples.values, [&] { return byte(base + random.integer(-most, most)); });
+  std::ranges::generate(samples.values,
+                        [&] { return clamped(base + random.integer(-most, most)); });
   return samples;
 }
 
@@ -64,8 +62,8 @@ MacroblockInput inside(const Samples& source, const Samples& before, int beside)
   input.borders.has_above = true;
   input.borders.has_left = true;
   for (Border& border : input.borders.planes) {
-    border.above.fill(byte(beside));
-    border.left.fill(byte(beside));
+    border.above.fill(clamped(beside));
+    border.left.fill(clamped(beside));
   }
   input.neighbours = {&skipped, &skipped, &skipped};
   return input;
@@ -98,15 +96,14 @@ class RandomInputs {
   template <typename Values>
   Values changed(Values values) {
     const std::int64_t most = random_.integer(0, 1) == 0 ? 0 : 1 << random_.integer(0, 7);
-    for (auto& value : values) value = byte(value + random_.integer(-most, most));
+    for (auto& value : values) value = clamped(value + random_.integer(-most, most));
     return values;
   }
   /// All samples by a little, or a few of them by more.
   Samples near(const Samples& samples) {
     Samples result{changed(samples.values)};
     for (auto count = random_.integer(0, 3); count > 0; --count) {
-      result.values[static_cast<std::size_t>(random_.integer(0, 383))] =
-          byte(random_.integer(0, 255));
+      result.values[static_cast<std::size_t>(random_.integer(0, 383))] = random_.byte();
     }
     return result;
   }
@@ -161,7 +158,8 @@ TEST(MacroblockCoder, PredictsWhatEqualsTheRowAboveOrTheColumnLeft) {
         const int side = side_of(plane);
         Border& border = input.borders.planes[static_cast<std::size_t>(plane)];
         auto& line = is_above ? border.above : border.left;
-        for (std::size_t i = 0; i < line.size(); ++i) line[i] = byte(8 * std::int64_t(i) + plane);
+        for (std::size_t i = 0; i < line.size(); ++i)
+          line[i] = clamped(8 * std::int64_t(i) + plane);
         for (int i = 0; i < side * side; ++i) {
           const int at = is_above ? i % side : i / side;
           input.source.plane(plane)[i] = line[static_cast<std::size_t>(at)];
@@ -195,7 +193,7 @@ TEST(MacroblockCoder, WritesDifferencesAsTheTablesSay) {
   input.source = input.before = noise(random, 100, 90);
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j)
-      input.source.plane(0)[16 * i + j] = byte(input.before.plane(0)[16 * i + j] ^ 8);
+      input.source.plane(0)[16 * i + j] = clamped(input.before.plane(0)[16 * i + j] ^ 8);
   }
   const CodedMacroblock coded = coder.code(input);
   ASSERT_EQ(coded.type, MbType::p_l0_16x16);
@@ -250,9 +248,9 @@ TEST(MacroblockCoder, DoesNotLeaveOneSampleThatIsFurtherOff) {
   for_each_qp([&](int qp, const MacroblockCoder& coder) {
     for (const std::size_t place : {0u, 100u, 255u, 256u, 319u, 320u, 383u}) {
       MacroblockInput input = inside(flat(120), flat(120), 120);
-      input.source.values[place] = byte(120 + cap(qp));
+      input.source.values[place] = clamped(120 + cap(qp));
       EXPECT_TRUE(stays_uncorrected(coder.code(input))) << place;
-      input.source.values[place] = byte(120 + cap(qp) + 1);
+      input.source.values[place] = clamped(120 + cap(qp) + 1);
       EXPECT_FALSE(stays_uncorrected(coder.code(input))) << place;
     }
   });

@@ -57,12 +57,11 @@ TEST(SkipVector, IsZeroAtTheEdgesAndBesideWhatStays) {
   EXPECT_EQ(skip_vector({&kRight, &kRight, &kUp}), kRight.vector);
 }
 
-Picture noise(Random& random, int width_mb, int height_mb) {
+Picture noise_picture(Random& random, int width_mb, int height_mb) {
   Picture picture(width_mb, height_mb);
   for (int plane = 0; plane < 3; ++plane) {
     const std::ptrdiff_t count = picture.stride_bytes(plane) * side_of(plane) * height_mb;
-    std::generate_n(picture.plane(plane), count,
-                    [&] { return static_cast<std::uint8_t>(random.integer(0, 255)); });
+    std::generate_n(picture.plane(plane), count, [&] { return random.byte(); });
   }
   return picture;
 }
@@ -94,7 +93,7 @@ TEST(PredictMoved, IsInterPredictionInsideAndOutsideThePicture) {
     return static_cast<int>(random.integer(first, last));
   };
   for (std::int64_t i = 0; i < many(300); ++i) {
-    const Picture before = noise(random, pick(1, 5), pick(1, 4));
+    const Picture before = noise_picture(random, pick(1, 5), pick(1, 4));
     const int x_mb = pick(0, before.width_mb() - 1);
     const int y_mb = pick(0, before.height_mb() - 1);
     const MotionVector vector = {pick(-70, 70), pick(-70, 70)};
@@ -121,7 +120,7 @@ const Neighbours kBesideStill = {&kSkipped, &kSkipped, &kSkipped};
 
 TEST(MotionSearch, FindsWhatSlidOrScrolled) {
   TracedRandom random(16);
-  const Picture before = noise(random, 8, 8);
+  const Picture before = noise_picture(random, 8, 8);
   for (const MotionVector moved :
        {MotionVector{3, 0}, {-17, 0}, {48, 0}, {0, 1}, {0, -48}, {16, 0}, {-1, 0}}) {
     Samples source;
@@ -133,9 +132,9 @@ TEST(MotionSearch, FindsWhatSlidOrScrolled) {
 
 TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) {
   TracedRandom random(61);
-  const Picture before = noise(random, 8, 8);
+  const Picture before = noise_picture(random, 8, 8);
   Samples other;
-  noise(random, 8, 8).load(1, 1, other);
+  noise_picture(random, 8, 8).load(1, 1, other);
   Samples slid;
   predict_moved(before, 4, 4, {9, 0}, slid);
   Samples crept;
@@ -150,9 +149,9 @@ TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) 
 
 TEST(MotionSearch, GoesFarWhereMuchHasChanged) {
   TracedRandom random(3);
-  const Picture before = noise(random, 3, 20);
+  const Picture before = noise_picture(random, 3, 20);
   Samples other;
-  noise(random, 3, 20).load(1, 1, other);
+  noise_picture(random, 3, 20).load(1, 1, other);
   for (const int changed : {0, 640}) {
     MotionSearch search(14);
     search.begin_picture(changed);
@@ -165,7 +164,7 @@ TEST(MotionSearch, GoesFarWhereMuchHasChanged) {
 
 TEST(MotionSearch, TakesWhatACoarserQuantiserLeavesForTheSame) {
   TracedRandom random(4);
-  const Picture before = noise(random, 8, 8);
+  const Picture before = noise_picture(random, 8, 8);
   Samples source;
   predict_moved(before, 4, 4, {5, 0}, source);
   for (int i = 0; i < 256; ++i) source.plane(0)[i] ^= 4;  // a sum of 1024
@@ -175,7 +174,7 @@ TEST(MotionSearch, TakesWhatACoarserQuantiserLeavesForTheSame) {
 
 TEST(MotionSearch, StaysWithinTheRangeOfAllLevelsWhereMotionSpeedsUp) {
   TracedRandom random(48);
-  const Picture before = noise(random, 3, 28);
+  const Picture before = noise_picture(random, 3, 28);
   MotionSearch search(14);
   for (int distance = 40; distance <= 140; ++distance) {
     Samples source;
@@ -241,7 +240,7 @@ void draw_window(Picture& picture, const Picture& noise, const Rect& window, int
 
 TEST(Motion, FollowsLargeWindowsThatScrollFarOrAreDragged) {
   TracedRandom random(66);
-  const Picture texture = noise(random, 60, 60);
+  const Picture texture = noise_picture(random, 60, 60);
   const StreamHeaders headers({.width_px = 640, .height_px = 480});
   PictureEncoder encoder(headers.config);
   StrictDecoder decoder(headers.bytes);

@@ -245,7 +245,7 @@ TEST(MayFollow, OfAnyBytesIsAnswered) {
     }
     may_follow(stream, kConfig);
     Bytes rbsp(std::size_t(random.integer(0, 20)));
-    for (std::uint8_t& byte : rbsp) byte = static_cast<std::uint8_t>(random.integer(0, 255));
+    for (std::uint8_t& byte : rbsp) byte = random.byte();
     stream.clear();
     append_unit(UnitType::sequence_parameters, 3, rbsp, stream);
     append_unit(UnitType::picture_parameters, 3, rbsp, stream);

@@ -19,7 +19,7 @@ namespace {
 using testing_support::article_frame;
 using testing_support::Pixels;
 
-const Config kConfig = {.width_px = 320, .height_px = 176, .rate_numerator = 10};
+const Config kSmall = {.width_px = 320, .height_px = 176, .rate_numerator = 10};
 
 /// Sets a rectangle of all planes to a value, and notes that it has changed.
 void fill(Picture& picture, MacroblockSet& changed, const PixelRect& rect, std::uint8_t value) {
@@ -65,10 +65,10 @@ Deviation deviation_of(const Picture& wanted, const Picture& shown) {
 class PictureEncoderTest : public testing::Test {
  protected:
   PictureEncoderTest()
-      : headers_(kConfig),
+      : headers_(kSmall),
         picture_(headers_.width_mb, headers_.height_mb),
         changed_(headers_.width_mb, headers_.height_mb) {
-    fill(picture_, changed_, {0, 0, kConfig.width_px, kConfig.height_px}, 235);
+    fill(picture_, changed_, {0, 0, kSmall.width_px, kSmall.height_px}, 235);
     changed_.clear();
   }
 
@@ -79,22 +79,22 @@ class PictureEncoderTest : public testing::Test {
 
 TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
   constexpr std::size_t kFewBytes = 12;  // with 5 of start code and header
-  convert(article_frame(kConfig.width_px, kConfig.height_px, 0.5), picture_);
-  PictureEncoder encoder(kConfig);
+  convert(article_frame(kSmall.width_px, kSmall.height_px, 0.5), picture_);
+  PictureEncoder encoder(kSmall);
   encoded_idr(encoder, picture_);
   EXPECT_LE(encoded_p(encoder, picture_, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
 
   // Also if all macroblocks are marked, but none changes.
   const Picture shown = encoder.decoded();
-  changed_.add(0, 0, kConfig.width_px, kConfig.height_px);
+  changed_.add(0, 0, kSmall.width_px, kSmall.height_px);
   EXPECT_LE(encoded_p(encoder, shown, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
   EXPECT_EQ(deviation_of(shown, encoder.decoded()).largest, 0);
 }
 
 TEST_F(PictureEncoderTest, LeavesUnmarkedMacroblocksAlone) {
-  PictureEncoder encoder(kConfig);
+  PictureEncoder encoder(kSmall);
   encoded_idr(encoder, picture_);
   const Picture before = encoder.decoded();
   fill(picture_, changed_, {32, 32, 64, 64}, 100);
@@ -104,7 +104,7 @@ TEST_F(PictureEncoderTest, LeavesUnmarkedMacroblocksAlone) {
 }
 
 TEST_F(PictureEncoderTest, CountsWhatIsTransformed) {
-  PictureEncoder encoder(kConfig);
+  PictureEncoder encoder(kSmall);
   encoded_idr(encoder, picture_);
   fill(picture_, changed_, {36, 36, 8, 8}, 16);
   encoded_p(encoder, picture_, changed_);
@@ -129,7 +129,7 @@ std::pair<int, int> number_of(const Bytes& access_unit) {
 TEST_F(PictureEncoderTest, NumbersThePicturesOfEveryGroup) {
   using Number = std::pair<int, int>;
   const int numbers = 1 << kFrameNum_bits;
-  PictureEncoder encoder(kConfig);
+  PictureEncoder encoder(kSmall);
   for (const int pictures : {3, 2 * numbers + 1, 1, 2}) {
     EXPECT_EQ(number_of(encoded_idr(encoder, picture_)), Number(5, 0));
     for (int i = 1; i < pictures; ++i) {
@@ -140,7 +140,7 @@ TEST_F(PictureEncoderTest, NumbersThePicturesOfEveryGroup) {
 
 TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
   const int pictures = 300;
-  PictureEncoder encoder(kConfig);
+  PictureEncoder encoder(kSmall);
   StrictDecoder decoder(headers_.bytes);
   ASSERT_TRUE(decoder.decode(encoded_idr(encoder, picture_)));
   for (int i = 1; i < pictures; ++i) {
@@ -157,13 +157,13 @@ TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
 
 TEST_F(PictureEncoderTest, KeepsFlatColoursExactWithinOne) {
   TracedRandom random(10);
-  PictureEncoder encoder(kConfig);
+  PictureEncoder encoder(kSmall);
   encoded_idr(encoder, picture_);
   for (int i = 0; i < 200; ++i) {
     changed_.clear();
     const PixelRect rect = {16 * static_cast<int>(random.integer(0, 15)),
                             16 * static_cast<int>(random.integer(0, 6)), 64, 64};
-    fill(picture_, changed_, rect, static_cast<std::uint8_t>(random.integer(0, 255)));
+    fill(picture_, changed_, rect, random.byte());
     encoded_p(encoder, picture_, changed_);
     ASSERT_LE(deviation_of(picture_, encoder.decoded()).largest, 1) << i;
     encoded_idr(encoder, picture_);
@@ -202,9 +202,9 @@ Bytes encode_group(PictureEncoder& encoder, const StreamHeaders& headers, std::u
 }
 
 TEST_F(PictureEncoderTest, MakesTheSameGroupAfterAnyOther) {
-  PictureEncoder used(kConfig);
+  PictureEncoder used(kSmall);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    PictureEncoder fresh(kConfig);
+    PictureEncoder fresh(kSmall);
     EXPECT_EQ(encode_group(used, headers_, seed), encode_group(fresh, headers_, seed)) << seed;
   }
 }
@@ -212,7 +212,7 @@ TEST_F(PictureEncoderTest, MakesTheSameGroupAfterAnyOther) {
 TEST_F(PictureEncoderTest, MakesKeyFramesOfTheSameBytesWhetherItRemembersTheLastOrNot) {
   TracedRandom random(7);
   for (const int qp : {2, 14, 34}) {
-    Config config = kConfig;
+    Config config = kSmall;
     config.qp = qp;
     RandomPictures pictures(headers_.width_mb, headers_.height_mb, random);
     PictureEncoder used(config);

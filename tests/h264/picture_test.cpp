@@ -9,16 +9,12 @@
 namespace piblocks::h264 {
 namespace {
 
-constexpr int kWidth = 3;
-constexpr int kHeight = 2;
+constexpr int kWidth_mb = 3;
+constexpr int kHeight_mb = 2;
 
-std::uint8_t random_byte(Random& random) {
-  return static_cast<std::uint8_t>(random.integer(0, 255));
-}
-
-Samples random_samples(Random& random) {
+Samples any_samples(Random& random) {
   Samples samples;
-  std::ranges::generate(samples.values, [&] { return random_byte(random); });
+  std::ranges::generate(samples.values, [&] { return random.byte(); });
   return samples;
 }
 
@@ -29,11 +25,11 @@ std::uint8_t& at(Picture& picture, int plane, int x, int y) {
 
 class PictureTest : public testing::Test {
  protected:
-  PictureTest() : picture_(kWidth, kHeight) {
+  PictureTest() : picture_(kWidth_mb, kHeight_mb) {
     for (int plane = 0; plane < 3; ++plane) {
-      for (int y = 0; y < kHeight * side_of(plane); ++y) {
-        for (int x = 0; x < kWidth * side_of(plane); ++x) {
-          at(picture_, plane, x, y) = random_byte(random_);
+      for (int y = 0; y < kHeight_mb * side_of(plane); ++y) {
+        for (int x = 0; x < kWidth_mb * side_of(plane); ++x) {
+          at(picture_, plane, x, y) = random_.byte();
         }
       }
     }
@@ -44,9 +40,9 @@ class PictureTest : public testing::Test {
 };
 
 TEST_F(PictureTest, LoadsTheSamplesOfEveryMacroblock) {
-  for (int address = 0; address < kWidth * kHeight; ++address) {
-    const int x_mb = address % kWidth;
-    const int y_mb = address / kWidth;
+  for (int address = 0; address < kWidth_mb * kHeight_mb; ++address) {
+    const int x_mb = address % kWidth_mb;
+    const int y_mb = address / kWidth_mb;
     Samples samples;
     picture_.load(x_mb, y_mb, samples);
     for (int plane = 0; plane < 3; ++plane) {
@@ -61,24 +57,24 @@ TEST_F(PictureTest, LoadsTheSamplesOfEveryMacroblock) {
 }
 
 TEST_F(PictureTest, StoresOneMacroblockAndLeavesTheOthers) {
-  for (int stored = 0; stored < kWidth * kHeight; ++stored) {
+  for (int stored = 0; stored < kWidth_mb * kHeight_mb; ++stored) {
     Picture picture = picture_;
-    const Samples samples = random_samples(random_);
-    picture.store(stored % kWidth, stored / kWidth, samples);
-    for (int address = 0; address < kWidth * kHeight; ++address) {
+    const Samples samples = any_samples(random_);
+    picture.store(stored % kWidth_mb, stored / kWidth_mb, samples);
+    for (int address = 0; address < kWidth_mb * kHeight_mb; ++address) {
       Samples found;
       Samples before;
-      picture.load(address % kWidth, address / kWidth, found);
-      picture_.load(address % kWidth, address / kWidth, before);
+      picture.load(address % kWidth_mb, address / kWidth_mb, found);
+      picture_.load(address % kWidth_mb, address / kWidth_mb, before);
       EXPECT_EQ(found.values, address == stored ? samples.values : before.values) << address;
     }
   }
 }
 
 TEST_F(PictureTest, KnowsWhatIsBesideAMacroblock) {
-  for (int address = 0; address < kWidth * kHeight; ++address) {
-    const int x_mb = address % kWidth;
-    const int y_mb = address / kWidth;
+  for (int address = 0; address < kWidth_mb * kHeight_mb; ++address) {
+    const int x_mb = address % kWidth_mb;
+    const int y_mb = address / kWidth_mb;
     Borders borders;
     picture_.load_borders(x_mb, y_mb, borders);
     EXPECT_EQ(borders.has_left, x_mb > 0);
@@ -102,8 +98,8 @@ TEST_F(PictureTest, KnowsWhatIsBesideAMacroblock) {
 TEST(Samples, MeasuresHowMuchTheyDiffer) {
   TracedRandom random(8);
   for (int run = 0; run < 200; ++run) {
-    Samples a = random_samples(random);
-    Samples b = random_samples(random);
+    Samples a = any_samples(random);
+    Samples b = any_samples(random);
     if (run == 0) a.values.fill(0), b.values.fill(255);
     int luma = 0;
     int chroma = 0;

@@ -10,6 +10,10 @@
 
 namespace piblocks::h264 {
 
+inline std::uint8_t clamped(std::int64_t value) {
+  return static_cast<std::uint8_t>(std::clamp<std::int64_t>(value, 0, 255));
+}
+
 template <typename Numbers>
 class RandomPictures {
  public:

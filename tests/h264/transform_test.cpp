@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <functional>
 
+#include "h264/random_pictures.hpp"
 #include "support/traced_random.hpp"
 
 namespace piblocks::h264 {
@@ -137,18 +138,14 @@ struct Pair {
   Block4x4 predicted;
 };
 
-std::uint8_t byte(std::int64_t value) {
-  return static_cast<std::uint8_t>(std::clamp<std::int64_t>(value, 0, 255));
-}
-
 /// Large or small differences, everywhere or at some samples, and the largest ones.
 Pair random_pair(Random& random) {
   Pair pair{};
   const std::int64_t most = std::int64_t{1} << random.integer(0, 8);
   const std::int64_t kind = random.integer(0, 3);
   for (std::size_t i = 0; i < 16; ++i) {
-    pair.predicted[i] = byte(random.integer(0, 255));
-    pair.source[i] = byte(pair.predicted[i] + random.integer(-most, most));
+    pair.predicted[i] = random.byte();
+    pair.source[i] = clamped(pair.predicted[i] + random.integer(-most, most));
     if (kind == 1 && random.integer(0, 3) > 0) pair.source[i] = pair.predicted[i];
     if (kind == 2) pair.source[i] = random.integer(0, 1) == 0 ? 0 : 255;
     if (kind == 2) pair.predicted[i] = static_cast<std::uint8_t>(255 - pair.source[i]);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "physics/rods.hpp"
 #include "support/message_of.hpp"
 #include "support/traced_random.hpp"
 
@@ -14,12 +15,6 @@ namespace {
 using testing_support::message_of;
 
 using Rods = EventSimulator<double, 1>;
-using Rod = Particle<double, 1>;
-
-Rod rod(double mass, double position, double velocity) {
-  return {mass, 0.5, Rod::Vector(position), Rod::Vector(velocity)};
-}
-
 // Six rods between two walls never stop.
 TEST(EventSimulator, KeepsTheOrderOfRodsBetweenWalls) {
   TracedRandom random(13);

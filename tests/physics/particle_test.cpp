@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/rods.hpp"
 #include "support/traced_random.hpp"
 
 namespace piblocks {
@@ -13,12 +14,7 @@ namespace {
 
 using Wide = boost::multiprecision::cpp_bin_float_50;
 using Disc = Particle<double, 2>;
-using Rod = Particle<double, 1>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Rod rod(double mass, double position, double velocity) {
-  return {mass, 0.5, Rod::Vector(position), Rod::Vector(velocity)};
-}
 
 Disc disc(double x, double y, double u, double v) { return {1, 0.5, {x, y}, {u, v}}; }
 

@@ -41,11 +41,10 @@ System box(std::vector<Body> bodies, int dimensions) {
   return {dimensions, std::move(bodies), std::move(walls)};
 }
 
-LightDifference difference_of(const Scene& scene, std::int64_t frame) {
+LightDifference exposed_difference(const Scene& scene, std::int64_t frame) {
   const auto samples = [](const ImageView& picture) { return samples_of(picture); };
   FrameRenderer renderer(scene);
-  return piblocks::difference_of(samples(renderer.frame(frame)),
-                                 mean_of_instants(scene, frame, samples));
+  return difference_of(samples(renderer.frame(frame)), mean_of_instants(scene, frame, samples));
 }
 
 TEST(BodyShutter, FramesOfBlocksAreMeansOfInstants) {
@@ -58,7 +57,7 @@ TEST(BodyShutter, FramesOfBlocksAreMeansOfInstants) {
                    1),
                3);
   for (const std::int64_t frame : {0, 3, 7, 20}) {
-    EXPECT_LE(difference_of(scene, frame).worst, 5.5) << frame;
+    EXPECT_LE(exposed_difference(scene, frame).worst, 5.5) << frame;
   }
 }
 
@@ -69,7 +68,7 @@ TEST(BodyShutter, FramesOfTouchingBlocksAreMeansOfInstants) {
   }
   const Scene scene = scene_of(box(std::move(bodies), 1), 2);
   for (const std::int64_t frame : {1, 3, 8}) {
-    EXPECT_LE(difference_of(scene, frame).worst, 3) << frame;
+    EXPECT_LE(exposed_difference(scene, frame).worst, 3) << frame;
   }
 }
 
@@ -128,7 +127,7 @@ double worst_difference(const MovingRow& row) {
     mean.add(samples_of(canvas.view()));
   }
   canvas.paint({160, 40, background, {row.item()}});
-  return piblocks::difference_of(samples_of(canvas.view()), mean.samples()).worst;
+  return difference_of(samples_of(canvas.view()), mean.samples()).worst;
 }
 
 /// Up to six blocks are in one pixel at the same time.
@@ -157,7 +156,7 @@ TEST(BodyShutter, FramesOfManyCollisionsAreMeansOfInstants) {
     system.bodies.push_back({.mass = std::nullopt, .position = {7, 0}});
     Scene scene = scene_of(std::move(system), Rational(1, 10));
     scene.time.allow_uncertain = true;
-    EXPECT_LE(difference_of(scene, 0).worst, 2.5) << bounces;
+    EXPECT_LE(exposed_difference(scene, 0).worst, 2.5) << bounces;
   }
 }
 
@@ -193,7 +192,7 @@ TEST(BodyShutter, AnExposureStopsAtTheEndOfTheFilm) {
   scene.time = {.from = Rational(999'999, 1'000'000), .to = Rational(1)};
   FrameRenderer end(scene);
   const std::vector<int> still = samples_of(end.frame(0));
-  EXPECT_LE(piblocks::difference_of(exposed, {still.begin(), still.end()}).worst, 2);
+  EXPECT_LE(difference_of(exposed, {still.begin(), still.end()}).worst, 2);
 }
 
 /// Two blocks and a wall by other names, in both directions and orders: thousands of collisions a
@@ -212,7 +211,7 @@ TEST(BodyShutter, FramesOfTheClosedFormAreMeansOfInstants) {
     const Scene scene = scene_of(std::move(system), 8);
     // The turn is at 4.
     for (const std::int64_t frame : {30, 39, 40}) {
-      EXPECT_LE(difference_of(scene, frame).worst, 2.5) << frame;
+      EXPECT_LE(exposed_difference(scene, frame).worst, 2.5) << frame;
     }
   }
 }
@@ -228,7 +227,7 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
                    2),
                2);
   for (const std::int64_t frame : {0, 1, 3, 9}) {
-    const LightDifference difference = difference_of(scene, frame);
+    const LightDifference difference = exposed_difference(scene, frame);
     // At an instant Cairo paints small discs at multiples of 1/8 pixel.
     EXPECT_LE(difference.worst, 20) << frame;
     EXPECT_LE(difference.mean, 0.1) << frame;
@@ -237,13 +236,13 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
   scene.view.width_px = 640;
   scene.view.height_px = 360;
   for (const std::int64_t frame : {0, 5}) {
-    EXPECT_LE(difference_of(scene, frame).worst, 16) << frame;
+    EXPECT_LE(exposed_difference(scene, frame).worst, 16) << frame;
   }
 }
 
 /// Of the items in the picture of the bodies.
 template <typename Item>
-std::size_t count_of(const DrawList& frame) {
+std::size_t block_count(const DrawList& frame) {
   return items_of<Item>(std::get<GroupItem>(frame.items.front()).list->items).size();
 }
 
@@ -253,8 +252,8 @@ TEST(BodyShutter, DiscsThatStayAreDiscItems) {
                              2),
                          2);
   const Film film(scene);
-  EXPECT_EQ(count_of<DiscItem>(film.frame(3)), 1U);
-  EXPECT_EQ(count_of<MovingShapesItem>(film.frame(3)), 1U);
+  EXPECT_EQ(block_count<DiscItem>(film.frame(3)), 1U);
+  EXPECT_EQ(block_count<MovingShapesItem>(film.frame(3)), 1U);
 }
 
 /// Each pixel between them has a part of two or three discs all the time.
@@ -271,7 +270,7 @@ TEST(BodyShutter, FramesOfTouchingDiscsAreMeansOfInstants) {
   Scene scene = scene_of({2, std::move(bodies), {}}, 2);
   scene.time.allow_uncertain = true;  // they touch from the beginning
   for (const std::int64_t frame : {0, 3}) {
-    const LightDifference difference = difference_of(scene, frame);
+    const LightDifference difference = exposed_difference(scene, frame);
     EXPECT_LE(difference.worst, 24) << frame;
     EXPECT_LE(difference.mean, 0.1) << frame;
   }
@@ -290,7 +289,7 @@ TEST(BodyShutter, FramesOfTinyDiscsAreMeansOfInstants) {
       }
     }
     const Scene scene = scene_of({2, std::move(bodies), {}}, 2);
-    const LightDifference difference = difference_of(scene, 1);
+    const LightDifference difference = exposed_difference(scene, 1);
     EXPECT_LE(difference.worst, 16) << radius;
     EXPECT_LE(difference.mean, 0.1) << radius;
   }
@@ -305,7 +304,7 @@ TEST(BodyShutter, DiscsThatMoveByLessThanCanBeSeenAreDiscs) {
                    2),
                2);
   const Film film(scene);
-  EXPECT_EQ(count_of<DiscItem>(film.frame(3)), 1U);
+  EXPECT_EQ(block_count<DiscItem>(film.frame(3)), 1U);
 }
 
 /// Light is neither lost nor made: far from its edges a disc's mean is its time there.

@@ -25,13 +25,13 @@ namespace {
 using testing_support::contains;
 
 /// What the counter of a picture says, without its separators.
-std::string count_of(const DrawList& list) {
+std::string shown_count(const DrawList& list) {
   std::string count = item_of<TextItem>(list, ItemId::count).text;
   std::erase(count, ',');
   return count;
 }
 
-Scene scene_of(const TwoBlocks& system) {
+Scene scene_of_blocks(const TwoBlocks& system) {
   Scene scene;
   scene.system = system_of(system);
   scene.view.theme = Theme::article;
@@ -68,7 +68,7 @@ std::vector<Anchored> anchors_of(const PairLog& log) {
 
 std::string last_count(const Scene& scene) {
   const Film film(scene);
-  return count_of(film.frame(film.frame_count() - 1));
+  return shown_count(film.frame(film.frame_count() - 1));
 }
 
 /// A scene from time 0 to an instant, in four seconds.
@@ -95,20 +95,20 @@ void expect_in_films(const Scene& scene, const Anchored& at) {
   const auto stop = std::ranges::find(schedule.stretches(), 0, &Stretch::speed);
   const Film stands(frozen);
   const std::int64_t frame = ceil(stop->video_s * 2).get_si();
-  EXPECT_EQ(count_of(stands.frame(frame)), count) << "freeze";
-  EXPECT_EQ(count_of(stands.frame(frame + 1)), count) << "freeze";
+  EXPECT_EQ(shown_count(stands.frame(frame)), count) << "freeze";
+  EXPECT_EQ(shown_count(stands.frame(frame + 1)), count) << "freeze";
 
   Scene later = scene;
   later.time.from = at.instant;
   later.time.to = Instant::last(40);
   later.time.speed = 20;
-  EXPECT_EQ(count_of(Film(later).frame(0)), count) << "begin";
+  EXPECT_EQ(shown_count(Film(later).frame(0)), count) << "begin";
 
   Scene looped = until(at.instant, scene);
   looped.pacing.duration_s = 5;
   looped.pacing.loop = true;
   const Film loop(looped);
-  EXPECT_EQ(count_of(loop.frame(loop.frame_count() / 2)), count) << "turn of a loop";
+  EXPECT_EQ(shown_count(loop.frame(loop.frame_count() / 2)), count) << "turn of a loop";
 }
 
 void expect_in_texts(const Scene& scene, const Anchored& at) {
@@ -122,14 +122,14 @@ void expect_in_texts(const Scene& scene, const Anchored& at) {
 }
 
 void expect_everywhere(const TwoBlocks& system) {
-  const Scene scene = scene_of(system);
+  const Scene scene = scene_of_blocks(system);
   const auto log = make_pair_log(system);
   SCOPED_TRACE("ratio " + system.red.mass.get_str());
   for (const Anchored& at : anchors_of(*log)) {
     SCOPED_TRACE(exact_text(at.instant));
     const std::string count = at.count.get_str();
-    EXPECT_EQ(count_of(still_picture(scene, at.instant)), count);
-    EXPECT_EQ(count_of(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
+    EXPECT_EQ(shown_count(still_picture(scene, at.instant)), count);
+    EXPECT_EQ(shown_count(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
     expect_in_films(scene, at);
     expect_in_texts(scene, at);
   }
@@ -153,13 +153,13 @@ TEST(CountsShown, AreRightForAnyNumberOfDigits) {
 /// Pictures, also of sheets; pages and captions of videos are decimal.
 TEST(CountsShown, AreInTheBaseOfTheScene) {
   for (const auto& [base, digits] : {std::pair{2, 9}, {3, 6}, {16, 3}, {36, 3}}) {
-    Scene scene = scene_of(article_blocks(digits, base));
+    Scene scene = scene_of_blocks(article_blocks(digits, base));
     scene.show.base = base;
     const auto log = make_pair_log(scene.system);
     for (const Anchored& at : anchors_of(*log)) {
       const std::string count = at.count.get_str(base);
-      EXPECT_EQ(count_of(still_picture(scene, at.instant)), count);
-      EXPECT_EQ(count_of(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
+      EXPECT_EQ(shown_count(still_picture(scene, at.instant)), count);
+      EXPECT_EQ(shown_count(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
       expect_in_texts(scene, at);
     }
   }
@@ -168,10 +168,10 @@ TEST(CountsShown, AreInTheBaseOfTheScene) {
 TEST(CountsShown, AreRightInTimesBeforeZero) {
   TwoBlocks system;
   system.red.velocity = 1;
-  const Scene scene = scene_of(system);
-  EXPECT_EQ(count_of(still_picture(scene, Instant(Rational(-20)))), "-314");
-  EXPECT_EQ(count_of(still_picture(scene, Instant::collision(-7))), "-7");
-  EXPECT_EQ(count_of(still_picture(scene, Instant::collision(0))), "0");
+  const Scene scene = scene_of_blocks(system);
+  EXPECT_EQ(shown_count(still_picture(scene, Instant(Rational(-20)))), "-314");
+  EXPECT_EQ(shown_count(still_picture(scene, Instant::collision(-7))), "-7");
+  EXPECT_EQ(shown_count(still_picture(scene, Instant::collision(0))), "0");
   Scene film = scene;
   film.time.from = Rational(-20);
   film.time.to = Rational(1);
@@ -183,7 +183,7 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
 
 TEST(CountsShown, AreRightInWords) {
   const auto sentence = [](const TwoBlocks& system, const Instant& to, int base = 10) {
-    Scene scene = scene_of(system);
+    Scene scene = scene_of_blocks(system);
     scene.show.base = base;
     scene.time.from = Rational(to.is_time() && to.offset < 0 ? -20 : 0);
     if (to.anchor == Instant::Anchor::collision) scene.time.from = Rational(-20);
@@ -219,7 +219,7 @@ TEST(CountsShown, AreRightInWords) {
 /// The digits of pi, where the count is made of them.
 TEST(CountsShown, OfPiAreSaidInTexts) {
   const auto film = [](const TwoBlocks& system, int base, int hold_end_s = 9) {
-    Scene scene = scene_of(system);
+    Scene scene = scene_of_blocks(system);
     scene.show.base = base;
     scene.time.to = Instant::last();
     scene.pacing.hold_end_s = hold_end_s;
@@ -246,7 +246,7 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
     const Film none = film(system, base);
     EXPECT_FALSE(contains(captions(none) + describe_film(none), "π"));
   }
-  Scene cut = scene_of(article_blocks(3));
+  Scene cut = scene_of_blocks(article_blocks(3));
   cut.time.to = Rational(7, 2);
   EXPECT_FALSE(contains(captions(unpainted(cut)), "π"));
 }
@@ -254,7 +254,7 @@ TEST(CountsShown, OfPiAreSaidInTexts) {
 /// 20 characters a second: 76 of them take 3.8 s, 25 take 1.25 s.
 TEST(CountsShown, TheLastComesWithWhatThereIsTimeToRead) {
   const auto last_caption = [](const Rational& hold_end_s) {
-    Scene scene = scene_of(article_blocks(3));
+    Scene scene = scene_of_blocks(article_blocks(3));
     scene.view.frame_rate = 20;
     scene.time.to = Instant::last();
     scene.pacing.hold_end_s = hold_end_s;
@@ -275,7 +275,7 @@ TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
   TracedRandom random(313);
   int stood = 0;
   for (int i = 0; i < 60; ++i) {
-    Scene scene = scene_of(system_of_ratio(random.rational(1, 20'000, 10) + 1));
+    Scene scene = scene_of_blocks(system_of_ratio(random.rational(1, 20'000, 10) + 1));
     scene.view.frame_rate = Rational(random.integer(2, 9));
     scene.pacing.loop = random.integer(0, 1) == 0;
     scene.pacing.hold_end_s = random.integer(0, 1);
@@ -311,16 +311,16 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
   TwoBlocks system = article_blocks(2);
   system.blocks_restitution = system.wall_restitution = Rational(1, 2);
   for (const Theme theme : {Theme::article, Theme::lecture}) {
-    Scene scene = scene_of(system);
+    Scene scene = scene_of_blocks(system);
     scene.view.theme = theme;
     scene.view.width_px = 640;
     scene.view.height_px = 360;
     const auto log = make_pair_log(system);
-    EXPECT_EQ(count_of(still_picture(scene, Instant::last())), "∞");
-    EXPECT_EQ(count_of(still_picture(scene, Instant(Rational(9)))), "∞");
-    EXPECT_EQ(count_of(still_picture(scene, Instant::collision(7))), "7");
+    EXPECT_EQ(shown_count(still_picture(scene, Instant::last())), "∞");
+    EXPECT_EQ(shown_count(still_picture(scene, Instant(Rational(9)))), "∞");
+    EXPECT_EQ(shown_count(still_picture(scene, Instant::collision(7))), "7");
     const Integer before = log->last() - 1;
-    EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
+    EXPECT_EQ(shown_count(still_picture(scene, Instant::collision(before))), before.get_str());
     scene.time.to = Rational(9);
     const Film film = unpainted(scene);
     const std::string text = describe_film(film);
@@ -337,15 +337,15 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
 
 TEST(CountsShown, AreRightInTheSecondsOfAStoryboard) {
   Storyboard story;
-  story.view = scene_of(article_blocks(3)).view;
-  Scene run = scene_of(article_blocks(3));
+  story.view = scene_of_blocks(article_blocks(3)).view;
+  Scene run = scene_of_blocks(article_blocks(3));
   run.time.to = Instant::last();
   run.pacing.duration_s = 4;
   run.pacing.hold_end_s = 1;
   story.segments.push_back({Card{{"314"}, 1}});
   story.segments.push_back({.content = Scenes{run}, .fade_s = Rational(1, 2)});
-  EXPECT_EQ(count_of(still_picture(story, Instant::last())), "314");
-  EXPECT_EQ(count_of(still_picture(story, Instant::last(Rational(-1, 2)))), "314");
+  EXPECT_EQ(shown_count(still_picture(story, Instant::last())), "314");
+  EXPECT_EQ(shown_count(still_picture(story, Instant::last(Rational(-1, 2)))), "314");
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ class Random {
     return first + static_cast<std::int64_t>(engine_() % span);
   }
 
+  std::uint8_t byte() { return static_cast<std::uint8_t>(engine_() % 256); }
+
   /// A double of [low, high).
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
