@@ -116,7 +116,7 @@ def test_other_threads_run_meanwhile():
 
     ticker = threading.Thread(target=tick)
     ticker.start()
-    Scene(3, view_size="1280x720").render("a.webm", jobs=1)
+    Scene(3, view_size="1280x720", time_to=2).render("a.webm", jobs=1)
     over.set()
     ticker.join()
     gaps = [b - a for a, b in zip(ticks, ticks[1:])]
@@ -141,13 +141,13 @@ def test_an_interrupted_rendering_in_a_thread_is_its_own():
 
 
 def test_memory_does_not_grow_with_renderings():
-    tiny = Scene(1, view_size="64x36", view_fps=5)
+    tiny = Scene(1, view_size="64x36", view_fps=5, time_to=1)
     for _ in range(100):
         tiny.render("a.mp4")
     before = resident_bytes()
-    for _ in range(1000):
+    for _ in range(400):
         tiny.render("a.mp4", jobs=2)
-    assert resident_bytes() - before < 8e6
+    assert resident_bytes() - before < 3.2e6
 
 
 def test_a_disk_that_is_full():
