@@ -158,18 +158,18 @@ void expect_steps_of_walk(std::int64_t count, std::uint64_t seed, const Limits& 
   expect_steps_of_walk(count, seed, lines_of(limits), ties);
 }
 
-TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) { expect_steps_of_walk(many(120), 0, {}); }
+TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) { expect_steps_of_walk(many(60), 0, {}); }
 
 TEST(LineTest, StagesAreThoseOfAnExactProgram) {
   int ties = 0;
-  expect_steps_of_walk(many(300), 8'000'000, random_row, ties);
-  EXPECT_GT(ties, 300);
+  expect_steps_of_walk(many(100), 8'000'000, random_row, ties);
+  EXPECT_GT(ties, 100);
 }
 
 TEST(LineTest, LossAndMotionAreThoseOfAnExactProgram) {
-  expect_steps_of_walk(many(100), 2'000'000, {.is_lossy = true});
-  expect_steps_of_walk(many(100), 3'000'000, {.is_driven = true});
-  expect_steps_of_walk(many(100), 4'000'000, {.is_driven = true, .is_lossy = true});
+  expect_steps_of_walk(many(40), 2'000'000, {.is_lossy = true});
+  expect_steps_of_walk(many(40), 3'000'000, {.is_driven = true});
+  expect_steps_of_walk(many(40), 4'000'000, {.is_driven = true, .is_lossy = true});
 }
 
 /// What each body meets, in order; and when.
@@ -229,21 +229,21 @@ double certain_steps_of(std::int64_t count, std::uint64_t seed, const Draw& draw
 }
 
 TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
-  EXPECT_GT(certain_steps_of(many(200), 1'000'000, lines_of({.most_bodies = 5})), 20);
+  EXPECT_GT(certain_steps_of(many(100), 1'000'000, lines_of({.most_bodies = 5})), 20);
 }
 
 TEST(LineTest, DoublesOfLossAndMotionAreRight) {
   Limits limits{.most_bodies = 5, .is_lossy = true};
-  EXPECT_GT(certain_steps_of(many(100), 5'000'000, lines_of(limits)), 20);
+  EXPECT_GT(certain_steps_of(many(40), 5'000'000, lines_of(limits)), 20);
   limits.is_driven = true;
-  EXPECT_GT(certain_steps_of(many(100), 7'000'000, lines_of(limits)), 20);
+  EXPECT_GT(certain_steps_of(many(40), 7'000'000, lines_of(limits)), 20);
   limits.is_lossy = false;
-  EXPECT_GT(certain_steps_of(many(100), 6'000'000, lines_of(limits)), 20);
+  EXPECT_GT(certain_steps_of(many(40), 6'000'000, lines_of(limits)), 20);
 }
 
 /// It takes contacts in order, and is not certain where that matters.
 TEST(LineTest, DoublesOfContactsAtOnceAreRight) {
-  EXPECT_GT(certain_steps_of(many(300), 9'000'000, random_row), 1);
+  EXPECT_GT(certain_steps_of(many(100), 9'000'000, random_row), 1);
 }
 
 /// Two systems whose only difference is the order of their bodies.

@@ -76,7 +76,7 @@ TEST(OverlapTest, FindsAllAmongDiscsThatTouch) {
     return std::uniform_int_distribution(low, high)(random);
   };
   int free = 0;
-  for (int run = 0; run < 1000; ++run) {
+  for (int run = 0; run < 300; ++run) {
     System system{2, {}, {}};
     const int side = whole(3, 40);
     const int largest = whole(1, 6);
@@ -88,14 +88,14 @@ TEST(OverlapTest, FindsAllAmongDiscsThatTouch) {
     free += overlapping_pairs(system.bodies).empty() ? 1 : 0;
     if (HasFailure()) FAIL() << "run " << run;
   }
-  EXPECT_GT(free, 30);
+  EXPECT_GT(free, 9);
 }
 
 /// Radii from 10^-9 to 10^9; many small discs beside and inside of large ones.
 TEST(OverlapTest, FindsAllAmongDiscsOfAllSizes) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> share(-1, 1);
-  for (int run = 0; run < 300; ++run) {
+  for (int run = 0; run < 100; ++run) {
     System system{2, {}, {}};
     for (int i = 0; i < 30; ++i) {
       const int exponent = std::uniform_int_distribution(-9, 9)(random);
