@@ -241,6 +241,13 @@ std::int64_t FilmSegment::furthest_frame() const {
   return is_loop ? frame_count_ / 2 : frame_count_ - 1;
 }
 
+void FilmSegment::require_certain(const FrameRange& frames) const {
+  for (const FilmRun& run : runs_) {
+    const std::int64_t furthest = std::clamp(furthest_frame(), frames.first, frames.last);
+    piblocks::require_certain(run.scene(), run.log(), schedule_->time_of(furthest));
+  }
+}
+
 Film::Film(const Script& script, const FilmMaking& making) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
     require_valid(problems_of(*scene));
@@ -320,6 +327,14 @@ DrawList Film::frame(std::int64_t number) const {
   if (number >= placed.first_seen()) return faded(placed.segment.frame(in_segment), opacity);
   const PlacedSegment& before = *std::prev(next, 2);
   return faded(before.segment.frame(number - before.first_frame), opacity);
+}
+
+void Film::require_certain(const FrameRange& frames) const {
+  for (const auto& [segment, first_frame, fade] : segments_) {
+    const FrameRange own{std::max<std::int64_t>(frames.first - first_frame, 0),
+                         std::min(frames.last - first_frame, segment.frame_count() - 1)};
+    if (own.first <= own.last) segment.require_certain(own);
+  }
 }
 
 std::int64_t frame_at(const Film& film, const Instant& instant) {

@@ -59,6 +59,7 @@ TEST_F(BodiesCli, WhatIsNotCertainIsRefusedWithItsTime) {
   EXPECT_LT(until, 200);
   for (const Arguments& command :
        {Arguments{"log", "uncertain.toml"}, Arguments{"render", "uncertain.toml"} + small,
+        Arguments{"render", "uncertain.toml", "--quiet", "-o", "a.wav"},
         Arguments{"still", "uncertain.toml", "--at", "150", "-o", "a.png"},
         Arguments{"sheet", "uncertain.toml", "-o", "a.pdf"},
         Arguments{"state", "uncertain.toml", "--at", "150"}}) {

@@ -12,7 +12,9 @@
 #include "scene/schedule.hpp"
 #include "support/decode_video.hpp"
 #include "support/message_of.hpp"
+#include "support/script_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/uncertain_discs.hpp"
 
 namespace piblocks {
 namespace {
@@ -136,6 +138,36 @@ TEST_F(RenderTest, FailingLeavesNoTrace) {
   EXPECT_THROW(render_still(scene("0", "1"), Instant::last(), path("out.jpg")), UsageError);
   EXPECT_THROW(render_still(scene("0", "1"), Instant::collision(315), path("out.png")), UsageError);
   EXPECT_TRUE(folder_.is_empty());
+}
+
+// The bodies are certain until a time between 13.4 and 13.5. Back and forth, frame 3866 shows 13.4
+// again.
+TEST_F(RenderTest, WhatIsNotCertainIsRefusedBeforeTheFirstFrame) {
+  const std::string text =
+      "view.size = '64x36'\nview.fps = 10\n" + testing_support::uncertain_discs();
+  const auto reports_of = [&](RenderJob job) {
+    int reports = 0;
+    EXPECT_THROW(render(job, [&](const Progress&) { ++reports; }), UsageError) << job.output;
+    return reports;
+  };
+  for (const char* loop : {"", "time.loop = true\n"}) {
+    const Script script = testing_support::script_of(loop + text);
+    for (const char* name : {"a.mp4", "a.wav", "a%d.svg", "a.pdf", "a.html"}) {
+      EXPECT_EQ(reports_of({script, path(name)}), 0) << name;
+    }
+    RenderJob job{script, path("a.mp4")};
+    job.frames = {130, 135};
+    EXPECT_EQ(reports_of(job), 0);
+    EXPECT_TRUE(folder_.is_empty());
+    job.frames = {120, 134};
+    EXPECT_EQ(render_silently(job).frame_count, 15);
+    std::filesystem::remove(job.output);
+  }
+  RenderJob backwards{testing_support::script_of("time.loop = true\n" + text), path("a.mp4")};
+  backwards.frames = {3865, 3900};
+  EXPECT_EQ(reports_of(backwards), 0);
+  backwards.frames = {3866, 3900};
+  EXPECT_EQ(render_silently(backwards).frame_count, 35);
 }
 
 TEST_F(RenderTest, AStillIsTheFrameOfItsInstant) {
