@@ -12,7 +12,6 @@
 #include "cli/exit_code.hpp"
 #include "cli/golden_actions.hpp"
 #include "cli/golden_folder.hpp"
-#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"

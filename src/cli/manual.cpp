@@ -10,8 +10,8 @@
 
 #include "cli/app.hpp"
 #include "cli/command.hpp"
-#include "cli/options.hpp"
 #include "cli/text_output.hpp"
+#include "cli/values.hpp"
 #include "scene/shipped_scenes.hpp"
 
 namespace piblocks::cli {

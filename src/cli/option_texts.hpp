@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/text.hpp"
+#include "core/whole_number.hpp"
 
 namespace piblocks::cli {
 
@@ -44,6 +45,10 @@ class OptionTexts {
       const std::string shown = given->empty() ? "''" : shortened(*given);
       throw UsageError(fmt::format("{} {}: {}", option, shown, error.what()));
     }
+  }
+  /// The same of a whole number within limits.
+  std::optional<int> whole(const std::string& option, int low, int high) const {
+    return value(option, [&](const std::string& text) { return parse_int(text, low, high); });
   }
 };
 

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <utility>
 
-#include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "draw/look.hpp"
 #include "scene/shipped_scenes.hpp"
@@ -219,7 +218,10 @@ void note_all(const std::vector<std::string>& notes) {
 
 void note_convention(const Script& script) { note_all(convention_notes(script)); }
 
-void note_contrast(const Script& script) { note_all(contrast_notes(script)); }
+void note_picture(const Script& script) {
+  note_convention(script);
+  note_all(contrast_notes(script));
+}
 
 void note_sharp(const Script& script) {
   const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <piblocks/error.hpp>
-#include <piblocks/instant.hpp>
 
 #include <string>
 #include <utility>
@@ -22,9 +21,6 @@ inline constexpr int kMaxJobs = 256;
 inline constexpr int kMaxShards = 100'000;
 /// Flashes of --max-flashes: as many as there can be at 60 frames a second.
 inline constexpr int kMaxFlashes = 30;
-
-/// "0,3.5,#10,last"
-std::vector<Instant> parse_instants(const std::string& text);
 
 /// The value whose name the text is.
 /// @throws UsageError with all the names otherwise.

@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "cli/log_rows.hpp"
 #include "cli/script_facts.hpp"
 #include "core/stop.hpp"
 #include "python/extension/interruptible.hpp"

@@ -14,8 +14,8 @@
 #include <tuple>
 #include <vector>
 
-#include "cli/destination.hpp"
 #include "cli/option_texts.hpp"
+#include "cli/render_job.hpp"
 #include "core/overwrite_check.hpp"
 
 namespace piblocks::python {
