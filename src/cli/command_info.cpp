@@ -12,7 +12,6 @@
 
 #include "cli/command.hpp"
 #include "cli/text_output.hpp"
-#include "cli/values.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "physics/versions.hpp"

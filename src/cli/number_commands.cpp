@@ -20,7 +20,6 @@
 #include "cli/script_facts.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
-#include "cli/values.hpp"
 #include "core/output_file.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"

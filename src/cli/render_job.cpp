@@ -11,7 +11,6 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/values.hpp"
 #include "core/processors.hpp"
 #include "core/text.hpp"
 #include "media/output/output.hpp"

@@ -63,8 +63,6 @@ class SceneOptions {
   void add_text(const std::string& key, const std::string& option, const std::string& placeholder,
                 const std::string& help);
   void add_flag(const Key& flag, const std::string& help);
-  /// @throws UsageError if both options are given; `what` they set.
-  void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
   Command command_;
   std::vector<Key> keys_;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/values.hpp"
 #include "scene/run_log.hpp"
 
 namespace piblocks::cli {
