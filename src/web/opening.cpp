@@ -12,9 +12,9 @@
 
 #include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
+#include "web/choices.hpp"
 #include "web/facts.hpp"
 #include "web/json.hpp"
-#include "web/ranges.hpp"
 
 namespace piblocks::web {
 namespace {
