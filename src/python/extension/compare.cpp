@@ -50,8 +50,7 @@ Mask drawn_mask(const Picture& picture, const std::string& name) {
   }
 }
 
-ComparisonJob job_of(const Picture& reference, const Picture& actual,
-                     const std::map<std::string, std::string>& options,
+ComparisonJob job_of(const Picture& reference, const Picture& actual, const Options& options,
                      const std::vector<MaskSource>& masks) {
   ComparisonJob job{reference.has_path() ? *reference.path() : "the reference",
                     actual.has_path() ? *actual.path() : "the actual picture"};
@@ -202,7 +201,7 @@ class Comparison {
 };
 
 std::shared_ptr<Comparison> compare_sides(const Picture& reference, const Picture& actual,
-                                          const std::map<std::string, std::string>& options,
+                                          const Options& options,
                                           const std::vector<MaskSource>& masks) {
   std::shared_ptr<Comparison> comparison;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
@@ -240,10 +239,6 @@ py::list rows_of(const Comparison& comparison) {
   py::list rows;
   for (const FrameComparison& row : comparison.rows()) rows.append(fields_of(comparison, row));
   return rows;
-}
-
-py::bytes bytes_object(ByteSpan bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 /// What make() returns.

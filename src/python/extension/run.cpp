@@ -23,7 +23,6 @@ namespace piblocks::python {
 namespace {
 
 namespace py = pybind11;
-using Options = std::map<std::string, std::string>;
 
 /// A scene and its log. Nothing is computed yet.
 class BoundRun {
@@ -80,7 +79,7 @@ void fill_log(const BoundRun& run, const std::string& first_text, const py::buff
 using Times = std::variant<std::vector<std::string>, py::buffer>;
 
 Rational time_of_text(const std::string& text, const Log& log) {
-  return time_of(*cli::OptionMap({{"t", text}}).value("t", parse_instant), log);
+  return time_of(instant_of("t", text), log);
 }
 
 Rational time_of_number(double value, const Log& log) {
