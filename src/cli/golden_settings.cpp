@@ -1,5 +1,3 @@
-#include "cli/golden_settings.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/golden_folder.hpp"
 #include "cli/tolerance_options.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
