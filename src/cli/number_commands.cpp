@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -79,71 +79,33 @@ void run_state(const Command& options, const SceneOptions& scene_options) {
   note_convention(scene);
 }
 
-constexpr std::array kFormats = {"csv", "jsonl", "npy"};
-
-TableFormat parse_format(const std::string& text) {
-  return parse_choice<TableFormat>(text, {{kFormats[0], TableFormat::csv},
-                                          {kFormats[1], TableFormat::jsonl},
-                                          {kFormats[2], TableFormat::npy}});
-}
-
-/// The format that the ending of a file names; nothing if it names none.
-std::optional<std::string> format_by_ending(const std::string& file) {
-  for (const char* format : kFormats) {
-    if (has_ending(file, std::string(".") + format)) return format;
+/// What --format says, or the ending of the file; CSV of a file without an ending.
+/// @throws UsageError if they disagree, or for another ending.
+TableFormat format_of(const Command& options) {
+  const std::vector<std::pair<std::string, TableFormat>> formats = {
+      {"csv", TableFormat::csv}, {"jsonl", TableFormat::jsonl}, {"npy", TableFormat::npy}};
+  const std::string file = output_of(options);
+  const auto ending = std::ranges::find_if(
+      formats, [&](const auto& format) { return has_ending(file, '.' + format.first); });
+  const auto named = options.value(
+      "--format", [&](const std::string& text) { return parse_choice(text, formats); });
+  if (named) {
+    if (ending == formats.end() || ending->second == *named) return *named;
+    throw UsageError(
+        fmt::format("--format {}: '{}' is a name of {}; leave out --format, or use another name",
+                    *options.text("--format"), file, ending->first));
   }
-  return std::nullopt;
-}
-
-/// The same, and CSV of a file without an ending. @throws UsageError for another ending.
-std::string format_of_file(const std::string& file) {
-  if (std::filesystem::path(file).extension().empty()) return kFormats[0];
-  if (auto format = format_by_ending(file)) return *format;
+  if (std::filesystem::path(file).extension().empty()) return TableFormat::csv;
+  if (ending != formats.end()) return ending->second;
   throw UsageError(fmt::format(
       "log: '{}' has no known ending; use .csv, .jsonl or .npy, or say the format by --format",
       file));
 }
 
-/// What --format says, or the ending of the file.
-/// @throws UsageError if they disagree.
-std::string format_name(const Command& options) {
-  const std::string file = output_of(options);
-  const auto named = options.value("--format", [](const std::string& text) {
-    parse_format(text);
-    return text;
-  });
-  if (!named) return format_of_file(file);
-  const std::optional<std::string> ending = format_by_ending(file);
-  if (!ending || *ending == *named) return *named;
-  throw UsageError(
-      fmt::format("--format {}: '{}' is a name of {}; leave out --format, or use another name",
-                  *named, file, *ending));
-}
-
-/// Shows how many rows have been written, if that takes more than a second and the rows themselves
-/// do not go to the terminal.
-class RowProgress {
- public:
-  RowProgress(const std::string& output, const Rows& rows)
-      : report_(output, output == "-" && isatty(STDOUT_FILENO) == 1,
-                {.unit = "rows", .delay = std::chrono::seconds(1)}),
-        count_(rows.count().fits_slong_p() ? rows.count().get_si() : 0) {}
-
-  void add(std::int64_t rows) {
-    done_ += rows;
-    if (count_ > 0) report_.update({done_, count_});
-  }
-
- private:
-  ProgressReport report_;
-  std::int64_t count_;  // 0 if there are more than can be written
-  std::int64_t done_ = 0;
-};
-
 void run_log(const Command& options, const SceneOptions& scene_options) {
   scene_options.check_output();
   const Scene scene = scene_options.scene();
-  const TableFormat format = parse_format(format_name(options));
+  const TableFormat format = format_of(options);
   const bool is_text = format != TableFormat::npy;
   if (!is_text) refuse_terminal(options);
   const std::unique_ptr<Log> log = make_log(scene, options);
@@ -156,14 +118,20 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
                   is_text ? OutputFile::Contents::text : OutputFile::Contents::bytes);
   file.write(header);
   {
-    RowProgress progress(output_of(options), rows);
+    // Rows that go to the terminal are seen themselves.
+    const bool is_quiet = output_of(options) == "-" && isatty(STDOUT_FILENO) == 1;
+    ProgressReport report(output_of(options), is_quiet,
+                          {.unit = "rows", .delay = std::chrono::seconds(1)});
+    std::int64_t done = 0;
     fmt::memory_buffer bytes;
     read_collisions(*log, rows.first, rows.last, [&](const TableRows& some) {
       check_stop(signals.token());
       bytes.clear();
       table.append(format, some, bytes);
       file.write(std::string_view(bytes.data(), bytes.size()));
-      progress.add(std::int64_t(some.size));
+      done += std::int64_t(some.size);
+      const Integer count = rows.count();
+      if (count.fits_slong_p()) report.update({done, count.get_si()});
     });
   }
   file.finish();

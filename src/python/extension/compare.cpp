@@ -27,7 +27,6 @@
 #include "golden/picture_list.hpp"
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/picture.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"

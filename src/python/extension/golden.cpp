@@ -15,8 +15,8 @@
 #include "core/text.hpp"
 #include "core/unfinished.hpp"
 #include "golden/reports.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
+#include "python/extension/without_gil.hpp"
 #include "render/references.hpp"
 
 namespace piblocks::python {

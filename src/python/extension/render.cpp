@@ -16,8 +16,8 @@
 #include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "draw/look.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
+#include "python/extension/without_gil.hpp"
 #include "render/renderings.hpp"
 
 namespace piblocks::python {

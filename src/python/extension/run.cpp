@@ -13,7 +13,6 @@
 
 #include "cli/script_facts.hpp"
 #include "core/stop.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
 #include "scene/run_log.hpp"
