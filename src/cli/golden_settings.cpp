@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "cli/golden_folder.hpp"

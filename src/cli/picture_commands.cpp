@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
 

@@ -1,7 +1,6 @@
 #include "cli/scene_options.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 

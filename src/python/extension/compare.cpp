@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>

@@ -1,12 +1,9 @@
-#include <fmt/format.h>
 #include <piblocks/encode.hpp>
-#include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <pybind11/pybind11.h>
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
