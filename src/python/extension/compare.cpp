@@ -239,13 +239,6 @@ py::list rows_of(const Comparison& comparison) {
   return rows;
 }
 
-/// What make() returns.
-template <typename Make>
-auto without_gil(const Make& make) {
-  const WithoutGil released;
-  return make();
-}
-
 py::dict pictures_of_pair(const Comparison& comparison) {
   py::dict files;
   for (const FramePicture& picture : without_gil([&] { return comparison.pictures(); }))

@@ -155,12 +155,7 @@ void copy_rgba(const Frame& frame, const py::buffer& buffer) {
 }
 
 py::bytes png_of(const Frame& frame) {
-  std::vector<std::uint8_t> png;
-  {
-    const WithoutGil released;
-    png = encode_png(frame.view());
-  }
-  return bytes_object(png);
+  return bytes_object(without_gil([&] { return encode_png(frame.view()); }));
 }
 
 }  // namespace

@@ -51,12 +51,11 @@ class BoundRun {
 
 /// The index of the first row, and their number, both hexadecimal.
 py::tuple select(const BoundRun& run, const Options& options) {
-  cli::Rows rows;
-  {
-    const WithoutGil released;
-    rows = cli::select_rows(cli::OptionMap(options), run.log());
-    require_certain(run.scene(), run.log(), rows.until);
-  }
+  const cli::Rows rows = without_gil([&] {
+    cli::Rows selected = cli::select_rows(cli::OptionMap(options), run.log());
+    require_certain(run.scene(), run.log(), selected.until);
+    return selected;
+  });
   return py::make_tuple(hexadecimal(rows.first), hexadecimal(rows.count()));
 }
 

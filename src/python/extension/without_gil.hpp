@@ -30,6 +30,13 @@ class WithoutGil {
   PyThreadState* state_ = nullptr;
 };
 
+/// What make() returns, which is called without the lock.
+template <typename Make>
+auto without_gil(const Make& make) {
+  const WithoutGil released;
+  return make();
+}
+
 /// Lets the interpreter wait before it ends. Once, when the module is loaded.
 void wait_for_work_at_exit();
 
