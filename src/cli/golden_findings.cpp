@@ -40,7 +40,7 @@ std::string line_of(const std::string& file, const FrameComparison& row) {
 
 void GoldenFindings::add(Outcome outcome, const std::string& file, const std::string& what) {
   ++pictures_.at(static_cast<std::size_t>(outcome));
-  lines_.add(outcome, fmt::format("{}: {}", file, what));
+  shown_.add(outcome, fmt::format("{}: {}", file, what));
 }
 
 void GoldenFindings::compare(const fs::path& reference, const fs::path& actual,
@@ -56,13 +56,13 @@ void GoldenFindings::compare_hashes(const ComparisonJob& job, const std::string&
   std::int64_t number = 0;
   std::optional<Frames> open;
   const auto close = [&] {
-    if (open) lines_.add(open->outcome, fmt::format("{}: {}", file, text_of(*open)));
+    if (open) shown_.add(open->outcome, fmt::format("{}: {}", file, text_of(*open)));
     open.reset();
   };
   const auto on_row = [&](const FrameComparison& row) {
     const bool is_frame = is_of_frame(row.outcome);
     ++(is_frame ? frames_ : pictures_).at(static_cast<std::size_t>(row.outcome));
-    if (!is_frame) return lines_.add(row.outcome, line_of(file, row));
+    if (!is_frame) return shown_.add(row.outcome, line_of(file, row));
     const std::int64_t frame = number++;
     if (open && row.outcome != open->outcome) close();
     if (row.outcome == Outcome::equal) return;
@@ -79,7 +79,7 @@ void GoldenFindings::compare_pictures(const ComparisonJob& job, const std::strin
   const auto on_row = [&](const FrameComparison& row) {
     ++pictures_.at(static_cast<std::size_t>(row.outcome));
     if (row.is_accepted()) return;
-    lines_.add(row.outcome, line_of(file, row));
+    shown_.add(row.outcome, line_of(file, row));
     if (pictures == nullptr || !row.difference || pictures->count() == kMaxShown) return;
     for (const FramePicture& picture : pictures_of(row)) {
       pictures->add(file, picture.kind, picture.png);

@@ -31,7 +31,7 @@ class GoldenFindings {
   /// "unreadable".
   const char* outcome() const;
   /// The first of the most severe ones, and how many more there are.
-  std::vector<std::string> lines() const { return lines_.all(); }
+  std::vector<std::string> lines() const { return shown_.all(); }
   /// "236 of 489 frames differ, 1 of 4 pictures differ"; empty if all is equal.
   std::string counts() const;
   /// Frames of the film whose hashes are not those of the references.
@@ -48,7 +48,7 @@ class GoldenFindings {
   Counts frames_ = {};    // by outcome
   Counts pictures_ = {};  // by outcome; of everything else, such as unreadable files
   std::vector<std::int64_t> changed_frames_;
-  ShownLines lines_;
+  ShownLines shown_;
 };
 
 }  // namespace piblocks::cli

@@ -76,21 +76,21 @@ class ShownLines {
     add(frame.outcome, lines_.takes(frame.outcome) ? printable(row_text(frame)) : "");
   }
   void add(Outcome outcome, std::string line) {
-    left_ += lines_.add(outcome, std::move(line)) ? 1 : 0;
+    if (lines_.add(outcome, std::move(line))) ++left_;
   }
   template <typename Use>
   void for_each(const Use& use) const {
     lines_.for_each(use);
   }
-  /// All of them, and the rest.
-  std::vector<std::string> all() const {
-    std::vector<std::string> all;
-    for_each([&](Outcome, const std::string& line) { all.push_back(line); });
-    if (left_ > 0) all.push_back(rest());
-    return all;
-  }
   /// How many others there are; empty if there are none.
   std::string rest() const { return left_ > 0 ? fmt::format("… and {} more", left_) : ""; }
+  /// The lines, and how many others there are.
+  std::vector<std::string> all() const {
+    std::vector<std::string> lines;
+    for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
+    if (left_ > 0) lines.push_back(rest());
+    return lines;
+  }
 
  private:
   ShownFrames<std::string> lines_;
