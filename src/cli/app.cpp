@@ -1,6 +1,7 @@
 #include "cli/app.hpp"
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include <array>
 #include <utility>
@@ -111,6 +112,12 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+  return names;
+}
+
 std::string full_name(const CLI::App& command) {
   const CLI::App* const parent = command.get_parent();
   if (parent == nullptr) return {};
@@ -179,6 +186,13 @@ std::optional<std::string> Command::text(const std::string& option) const {
 std::vector<std::string> Command::texts(const std::string& option) const {
   const auto given = program_->values.find(app_->get_option(option));
   return given == program_->values.end() ? std::vector<std::string>() : given->second;
+}
+
+std::string output_of(const Command& command) { return command.text("--output").value_or("-"); }
+
+void refuse_terminal(const Command& command) {
+  if (output_of(command) != "-" || isatty(STDOUT_FILENO) == 0) return;
+  throw UsageError("--output -: standard output is a terminal; pipe it or redirect it to a file");
 }
 
 }  // namespace piblocks::cli

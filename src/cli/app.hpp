@@ -40,6 +40,7 @@ bool takes_value(const CLI::Option& option);
 
 /// The commands of the program, or of a command that has some.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
+std::vector<std::string> command_names(const CLI::App& app);
 
 /// "golden check": the command's name behind the program's.
 std::string full_name(const CLI::App& command);

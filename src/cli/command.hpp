@@ -82,6 +82,11 @@ class Command final : public OptionTexts {
   CLI::App* app_;
 };
 
+/// The name that --output gives; "-" if it is not given.
+std::string output_of(const Command& command);
+/// @throws UsageError if the output is "-" and standard output is a terminal.
+void refuse_terminal(const Command& command);
+
 /// Runs the command that the arguments of main() name.
 /// @returns the exit code. @throws what commands throw
 int run_command_line(int argc, char** argv);

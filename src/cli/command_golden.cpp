@@ -2,7 +2,6 @@
 #include <piblocks/script.hpp>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -12,11 +11,11 @@
 #include "cli/exit_code.hpp"
 #include "cli/golden_actions.hpp"
 #include "cli/golden_folder.hpp"
-#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
+#include "cli/tolerance_options.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/text.hpp"
 #include "render/references.hpp"
@@ -26,29 +25,21 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// Options that only pictures in a folder have.
-constexpr std::array kFolderOptions = {"--max-delta",
-                                       "--threshold",
-                                       "--count-antialiasing",
-                                       "--ignore-transparent",
-                                       "--max-pixels",
-                                       "--hard-delta",
-                                       "--max-window",
-                                       "--mask",
-                                       "--report",
-                                       "--report-in-one-file",
-                                       "--junit",
-                                       "--json",
-                                       "--quiet",
-                                       "--missing",
-                                       "--accepted",
-                                       "--remove-unused"};
+/// @throws UsageError if one of the options is given that only pictures in a folder have.
+void refuse_folder_options(const Command& options) {
+  const auto refuse = [&](const char* option) {
+    if (!options.is_given(option)) return;
+    throw UsageError(fmt::format("{} is about pictures in a folder: it needs --against", option));
+  };
+  for (const ToleranceOption& option : kToleranceOptions) refuse(option.name);
+  for (const char* const option : {"--report", "--report-in-one-file", "--junit", "--json",
+                                   "--quiet", "--missing", "--accepted", "--remove-unused"}) {
+    refuse(option);
+  }
+}
 
 std::vector<References> references_of(const Command& options) {
-  for (const char* const option : kFolderOptions) {
-    if (!options.is_given(option)) continue;
-    throw UsageError(fmt::format("{} is about pictures in a folder: it needs --against", option));
-  }
+  refuse_folder_options(options);
   if (!options.is_given("--dir")) {
     throw UsageError(
         "golden: missing the folder of the references: --dir DIR for scenes, --against DIR for a "

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <set>
 #include <system_error>
 #include <vector>
 
 #include "cli/comparison.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/golden_settings.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/input_file.hpp"

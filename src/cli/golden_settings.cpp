@@ -1,14 +1,11 @@
-#include "cli/golden_settings.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
+#include "cli/golden_folder.hpp"
 #include "cli/tolerance_options.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"

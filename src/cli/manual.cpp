@@ -10,7 +10,6 @@
 
 #include "cli/app.hpp"
 #include "cli/command.hpp"
-#include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "scene/shipped_scenes.hpp"
 
@@ -44,11 +43,7 @@ std::vector<const CLI::App*> leaves_of(const CLI::App& app) {
 
 /// The names of its commands, with blanks; empty if it has none.
 std::string names_below(const CLI::App& app) {
-  std::string names;
-  for (const CLI::App* command : commands_of(app)) {
-    names += (names.empty() ? "" : " ") + command->get_name();
-  }
-  return names;
+  return fmt::format("{}", fmt::join(command_names(app), " "));
 }
 
 struct NamedOption {

@@ -1,6 +1,6 @@
-// Options as texts, from a command line or from another program.
+// Options as texts, from a command line or from another program; limits of their values.
 // In: the name of an option, such as "--output". Out: its text, or the value that a parser makes of
-// it.
+// it, or a UsageError that says what is expected.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,11 +9,36 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/nearest_name.hpp"
 #include "core/text.hpp"
+#include "core/whole_number.hpp"
 
 namespace piblocks::cli {
+
+/// Rows of a log that are written unless --limit asks for more.
+inline constexpr long kMaxRows = 100'000'000;
+/// Threads of --jobs.
+inline constexpr int kMaxJobs = 256;
+/// Shards of --part.
+inline constexpr int kMaxShards = 100'000;
+/// Flashes of --max-flashes: as many as there can be at 60 frames a second.
+inline constexpr int kMaxFlashes = 30;
+
+/// The value whose name the text is.
+/// @throws UsageError with all the names otherwise.
+template <typename Value>
+Value parse_choice(const std::string& text,
+                   const std::vector<std::pair<std::string, Value>>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : choices) {
+    if (text == name) return value;
+    names.push_back(name);
+  }
+  throw UsageError(must_be_one_of(text, names));
+}
 
 class OptionTexts {
  public:
@@ -44,6 +69,10 @@ class OptionTexts {
       const std::string shown = given->empty() ? "''" : shortened(*given);
       throw UsageError(fmt::format("{} {}: {}", option, shown, error.what()));
     }
+  }
+  /// The same of a whole number within limits.
+  std::optional<int> whole(const std::string& option, int low, int high) const {
+    return value(option, [&](const std::string& text) { return parse_int(text, low, high); });
   }
 };
 

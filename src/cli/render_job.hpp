@@ -8,11 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "cli/destination.hpp"
 #include "cli/option_texts.hpp"
 #include "core/overwrite_check.hpp"
 
 namespace piblocks::cli {
+
+/// The value of a key of the scene file.
+struct SceneDefault {
+  std::string key;
+  std::string text;
+};
 
 /// Makes a script. @param defaults  replace values of its file, but not options.
 /// @param origin  says in messages where the defaults come from, as "--for NAME".
@@ -24,6 +29,9 @@ using MakeScript =
 /// @throws UsageError, or what make_script() throws
 RenderJob job_of(const OptionTexts& options, const std::string& output,
                  const MakeScript& make_script);
+
+/// The destinations of --for, as a message lists them.
+std::string destination_names();
 
 /// What is written, for messages.
 std::string name_of(const RenderJob& job);

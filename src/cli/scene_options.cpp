@@ -1,14 +1,13 @@
 #include "cli/scene_options.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
+#include <array>
 #include <iostream>
 #include <utility>
 
-#include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "draw/look.hpp"
 #include "scene/shipped_scenes.hpp"
@@ -153,12 +152,6 @@ void SceneOptions::add_show() {
   add_flag({"red.width", "--width-by-mass", "by-mass"}, "Make red as wide as its mass suggests");
 }
 
-void SceneOptions::refuse_both(const std::string& first, const std::string& second,
-                               const char* what) const {
-  if (!command_.is_given(first) || !command_.is_given(second)) return;
-  throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
-}
-
 bool SceneOptions::has_scene() const { return command_.is_given(kScene); }
 
 Scene SceneOptions::scene() const {
@@ -170,12 +163,17 @@ Scene SceneOptions::scene() const {
 
 Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
                             const std::string& origin) const {
-  refuse_both("--digits", "--mass-ratio", "the mass of red");
-  refuse_both("--speed", "--duration", "the speed");
-  refuse_both("--transparent", "--opaque", "the background");
-  refuse_both("--transparent", "--background", "the background");
-  refuse_both("--opaque", "--background", "the background");
-  refuse_both("--sound", "--no-sound", "the sound");
+  constexpr std::array<std::array<const char*, 3>, 6> kOfOneValue = {
+      {{"--digits", "--mass-ratio", "the mass of red"},
+       {"--speed", "--duration", "the speed"},
+       {"--transparent", "--opaque", "the background"},
+       {"--transparent", "--background", "the background"},
+       {"--opaque", "--background", "the background"},
+       {"--sound", "--no-sound", "the sound"}}};
+  for (const auto& [first, second, what] : kOfOneValue) {
+    if (!command_.is_given(first) || !command_.is_given(second)) continue;
+    throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
+  }
   ScriptBuilder builder;
   if (const auto scene = command_.text(kScene)) {
     is_standard_input(*scene) ? builder.read_text(kStandardInput, text_of_standard_input())
@@ -219,7 +217,10 @@ void note_all(const std::vector<std::string>& notes) {
 
 void note_convention(const Script& script) { note_all(convention_notes(script)); }
 
-void note_contrast(const Script& script) { note_all(contrast_notes(script)); }
+void note_picture(const Script& script) {
+  note_convention(script);
+  note_all(contrast_notes(script));
+}
 
 void note_sharp(const Script& script) {
   const auto is_blurred = [](const Scene* scene) { return scene->view.shutter > 0; };

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <piblocks/script.hpp>
-#include <piblocks/two_blocks.hpp>
 
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command.hpp"
-#include "cli/destination.hpp"
+#include "cli/render_job.hpp"
 #include "cli/script_facts.hpp"
 #include "core/overwrite_check.hpp"
 #include "scene/run_log.hpp"
@@ -64,8 +63,6 @@ class SceneOptions {
   void add_text(const std::string& key, const std::string& option, const std::string& placeholder,
                 const std::string& help);
   void add_flag(const Key& flag, const std::string& help);
-  /// @throws UsageError if both options are given; `what` they set.
-  void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
   Command command_;
   std::vector<Key> keys_;
@@ -80,8 +77,8 @@ void note_all(const std::vector<std::string>& notes);
 /// happen at once: their number then depends on a convention.
 /// @throws SceneError if problems_of() of the system is not empty.
 void note_convention(const Script& script);
-/// Says on standard error which own colours are hard to see.
-void note_contrast(const Script& script);
+/// The same, and which own colours are hard to see.
+void note_picture(const Script& script);
 /// Says that a picture without motion blur is asked for with it.
 void note_sharp(const Script& script);
 /// Prints a note on standard error if the order of pairs decided what happened up to this

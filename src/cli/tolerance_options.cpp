@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
-#include "cli/values.hpp"
 #include "core/text.hpp"
 #include "golden/mask_picture.hpp"
 #include "media/png/png_reader.hpp"

@@ -98,7 +98,7 @@ EMSCRIPTEN_KEEPALIVE bool live_program() {
 }
 
 /// Opens a scene or storyboard and shows it; if something is wrong, the one before stays.
-/// @param settings  over the text: lines as of settings_of()
+/// @param settings  over the text: as Request::settings
 /// @param places  lines as of live_show(): the first that the scene has is shown, otherwise its
 ///                start. Nothing is shown if this is empty.
 /// @param size  of the picture, as "1080x1920", if the scene fits into it; otherwise its own. Files

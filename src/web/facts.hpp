@@ -10,6 +10,12 @@
 
 namespace piblocks::web {
 
+/// "2.5" for 5/2; a fraction that is no decimal of at most 20 places stays one.
+std::string decimal_text(const Rational& value);
+
+/// The same for every fraction in a text: "turn-0.3" for "turn-3/10".
+std::string with_decimals(std::string_view text);
+
 /// {"mass":"1","position":["2"],"velocity":["0"],"size":"1","color":"…","label":"…"}: as its table
 /// in a scene file, with decimals.
 std::string body_json(const Body& body, const BodyStyle& style, int dimensions);

@@ -54,17 +54,14 @@ void convert(const ImageView& picture, Patch& patch) {
 }  // namespace
 
 void Screen::update(DrawList list) {
-  const bool has_background = list.background.has_value();
-  const bool fits = canvas_ && list.width_px == width_px_ && list.height_px == height_px_ &&
-                    has_background == has_background_;
-  if (!fits) {
+  const Background background = list.background ? Background::opaque : Background::transparent;
+  const auto fits = [&](const ImageView& shown) {
+    return shown.width_px == list.width_px && shown.height_px == list.height_px &&
+           shown.has_alpha == (background == Background::transparent);
+  };
+  if (!canvas_ || !fits(canvas_->view())) {
     canvas_.reset();  // before the next one takes memory
-    canvas_ =
-        std::make_unique<Canvas>(list.width_px, list.height_px,
-                                 has_background ? Background::opaque : Background::transparent);
-    width_px_ = list.width_px;
-    height_px_ = list.height_px;
-    has_background_ = has_background;
+    canvas_ = std::make_unique<Canvas>(list.width_px, list.height_px, background);
   }
   try {
     patch_.rect = bounding_box(canvas_->update(std::move(list)));

@@ -37,9 +37,6 @@ class Screen {
 
  private:
   std::unique_ptr<Canvas> canvas_;
-  int width_px_ = 0;
-  int height_px_ = 0;
-  bool has_background_ = false;
   Patch patch_;
 };
 

@@ -8,16 +8,118 @@
 #include <iterator>
 #include <map>
 #include <new>
+#include <span>
 #include <utility>
 
+#include "core/text.hpp"
 #include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
+#include "scene/scene_toml.hpp"
+#include "web/choices.hpp"
 #include "web/facts.hpp"
 #include "web/json.hpp"
-#include "web/ranges.hpp"
 
 namespace piblocks::web {
 namespace {
+
+/// A line of settings.
+struct Setting {
+  std::string key;
+  std::optional<std::vector<std::string>> texts;  ///< nothing: the key has its default
+};
+
+/// The key of a setting, of which later ones may have reset a half.
+std::string key_left(const Setting& setting, std::span<const Setting> later) {
+  if (setting.key != "restitution") return setting.key;
+  const auto is_reset = [&](std::string_view key) {
+    return std::ranges::any_of(later,
+                               [&](const Setting& one) { return !one.texts && one.key == key; });
+  };
+  if (is_reset("blocks.restitution")) return "wall.restitution";
+  return is_reset("wall.restitution") ? "blocks.restitution" : setting.key;
+}
+
+std::unique_ptr<ScriptBuilder> read(std::string_view text, const std::vector<Setting>& settings,
+                                    const std::vector<LeftOut>& left_out) {
+  if (text.size() > kMaxSceneFile_bytes) {
+    throw SceneError(fmt::format("scene: longer than {} bytes, the most that a scene file may have",
+                                 kMaxSceneFile_bytes));
+  }
+  auto builder = std::make_unique<ScriptBuilder>();
+  for (const Setting& setting : settings) {
+    if (!setting.texts) builder->leave_out(setting.key);
+  }
+  for (const LeftOut& out : left_out) {
+    if (out.part > 0) {
+      builder->leave_out_of_part(out.part, out.key, out.item);
+    } else if (out.item.empty()) {
+      builder->leave_out(out.key);
+    } else {
+      builder->leave_out(out.key, out.item);
+    }
+  }
+  builder->read_text("scene", text);
+  for (auto setting = settings.begin(); setting != settings.end(); ++setting) {
+    const std::string key = key_left(*setting, {setting, settings.end()});
+    // It, or the body that it is a property of, has its default from some line on.
+    const auto is_reset = [&](const Setting& later) {
+      return !later.texts && (set_same_value(later.key, key) || key.starts_with(later.key + '.'));
+    };
+    const auto is_left_out = [&](const LeftOut& out) {
+      return out.part == 0 && out.item.empty() && out.key == key;
+    };
+    if (!setting->texts || std::any_of(setting, settings.end(), is_reset)) continue;
+    if (std::ranges::any_of(left_out, is_left_out)) continue;
+    builder->set(setting->key, key, *setting->texts);
+  }
+  return builder;
+}
+
+/// The text of blue, red and a wall of finite mass as bodies; nothing if the scene is another one.
+std::optional<std::string> text_with_wall(std::string_view text,
+                                          const std::vector<Setting>& settings,
+                                          const std::vector<LeftOut>& left_out) {
+  try {
+    const Scene scene = read(text, settings, left_out)->build_scene();
+    const bool has_names = scene.system.bodies.front().name == "blue";
+    if (!has_names || has_short_names(scene.system)) return std::nullopt;
+    return scene_toml(scene);
+  } catch (const SceneError&) {
+    return std::nullopt;  // it may be right with other bodies
+  }
+}
+
+/// @param lines  as Request::settings. @throws UsageError
+std::vector<Setting> settings_of(std::string_view lines) {
+  std::vector<Setting> settings;
+  if (lines.size() > kMaxSceneFile_bytes) throw UsageError("page: too many settings");
+  for (const std::string& line : split(lines, '\n')) {
+    if (line.empty()) continue;
+    const std::size_t equals = line.find('=');
+    Setting& setting = settings.emplace_back(Setting{line.substr(0, equals), {}});
+    if (equals == std::string::npos) continue;
+    setting.texts = split(std::string_view(line).substr(equals + 1), '\t');
+  }
+  return settings;
+}
+
+/// Reads the text and, over it, the settings. If the wall has a finite mass, blue, red and wall
+/// are bodies 1, 2 and 3. @throws SceneError if it is too long, or no TOML.
+std::unique_ptr<ScriptBuilder> builder_of(std::string_view text,
+                                          const std::vector<Setting>& settings,
+                                          const std::vector<LeftOut>& left_out) {
+  std::vector<Setting> of_bodies;
+  std::vector<Setting> others;
+  for (const Setting& setting : settings) {
+    (number_in(setting.key, "body ") > 0 ? of_bodies : others).push_back(setting);
+  }
+  if (!of_bodies.empty()) {
+    if (const auto with_bodies = text_with_wall(text, others, left_out)) {
+      return read(*with_bodies, of_bodies, left_out);
+    }
+  }
+  return read(text, settings, left_out);
+}
 
 /// Names and keys that are left out of one scene at most.
 constexpr std::size_t kMostLeftOut = 60;
@@ -54,9 +156,6 @@ Shows shows_of(const Script& script) {
   }
   return shows;
 }
-
-/// Whether a part of a storyboard may have the key.
-bool is_of_part(const std::string& key) { return !is_film_key(key) && !is_body_label(key); }
 
 /// What there is to leave out where everything together has too little room, beginning with what is
 /// missed least.
@@ -137,14 +236,12 @@ class Opener {
     for (const std::string& text : split(request_.places, '\n')) {
       try {
         return show(read_place(live, text));
-      } catch (const UsageError& error) {
-        if (std::ranges::any_of(error.problems(), [&](const Problem& problem) {
-              return what_to_leave_out(problem).has_value();
-            })) {
-          throw;
-        }
-        if (opening.place_problem.empty()) opening.place_problem = error.what();
       } catch (const Error& error) {
+        const auto* const usage = dynamic_cast<const UsageError*>(&error);
+        const auto may_help = [&](const Problem& one) {
+          return what_to_leave_out(one).has_value();
+        };
+        if (usage != nullptr && std::ranges::any_of(usage->problems(), may_help)) throw;
         if (opening.place_problem.empty()) opening.place_problem = error.what();
       }
     }
@@ -158,7 +255,7 @@ class Opener {
     const Show& show = shows_.at(part);
     LeftOut out = problem.key == "show" ? least_needed(show) : LeftOut{problem.key, problem.item};
     if (out.item.empty()) out.item = last_of_list(out.key, show);
-    if (is_of_part(out.key)) out.part = part;
+    if (!is_film_key(out.key) && !is_body_label(out.key)) out.part = part;
     // The part may have it from the whole film.
     if (is_among(did_not_help_, out)) out.part = 0;
     const bool is_of_all = problem.key == "show" && changed_.starts_with("show.");

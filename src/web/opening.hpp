@@ -3,7 +3,9 @@
 #pragma once
 
 #include <piblocks/error.hpp>
+#include <piblocks/script.hpp>
 
+#include <cstddef>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -12,15 +14,24 @@
 #include <vector>
 
 #include "web/live.hpp"
-#include "web/settings.hpp"
 
 namespace piblocks::web {
 
+/// What the picture does without.
+struct LeftOut {
+  std::string key;
+  std::string item = {};    ///< of the key's list; empty if all of the key is left out
+  std::string reason = {};  ///< in words for it alone: "needs elastic collisions"
+  std::size_t part = 0;     ///< line of the [[part]] that has the key; 0 for none
+};
+
 struct Request {
-  std::string text;           ///< of a scene file
-  std::string settings = {};  ///< as settings_of(); the last line is what has just been changed
-  std::string places = {};    ///< lines as read_place(); without any, there is no picture
-  std::string screen = {};    ///< "1080x1920": size of the picture, if the scene fits into it
+  std::string text;  ///< of a scene file
+  /// Lines KEY=TEXT, in which the texts of a list are separated by tabs; or KEY, which gives a key
+  /// its default, whatever text and lines before say. The last is what has just been changed.
+  std::string settings = {};
+  std::string places = {};  ///< lines as read_place(); without any, there is no picture
+  std::string screen = {};  ///< "1080x1920": size of the picture, if the scene fits into it
 };
 
 /// What is shown.

@@ -50,7 +50,7 @@ expect_fault(src/h264/cavlc.cpp "#include \"core/output_file.hpp\"")
 expect_fault(src/h264/cavlc.cpp "#include <piblocks/error.hpp>")
 expect_fault(src/draw/compose.cpp "#include <piblocks/event_simulator.hpp>")
 expect_fault(src/draw/compose.cpp "#include \"physics/unfolded.hpp\"")
-expect_fault(src/render/render.hpp "#include \"cli/options.hpp\"")
+expect_fault(src/render/render.hpp "#include \"cli/command.hpp\"")
 expect_fault(include/piblocks/image.hpp "#include <piblocks/encode.hpp>")
 expect_fault(include/piblocks/image.hpp "#include \"core/output_file.hpp\"")
 # Libraries.

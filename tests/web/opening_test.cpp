@@ -13,7 +13,6 @@
 #include "support/contains.hpp"
 #include "support/script_of.hpp"
 #include "web/choices.hpp"
-#include "web/decimals.hpp"
 #include "web/facts.hpp"
 
 namespace piblocks::web {

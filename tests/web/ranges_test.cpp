@@ -1,5 +1,4 @@
 // Sliders and one more body: whatever they offer is accepted.
-#include "web/ranges.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +13,6 @@
 #include "web/choices.hpp"
 #include "web/facts.hpp"
 #include "web/opening.hpp"
-#include "web/room.hpp"
 
 namespace piblocks::web {
 namespace {

@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,7 +26,6 @@
 #include "golden/picture_list.hpp"
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/picture.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
@@ -50,8 +48,7 @@ Mask drawn_mask(const Picture& picture, const std::string& name) {
   }
 }
 
-ComparisonJob job_of(const Picture& reference, const Picture& actual,
-                     const std::map<std::string, std::string>& options,
+ComparisonJob job_of(const Picture& reference, const Picture& actual, const Options& options,
                      const std::vector<MaskSource>& masks) {
   ComparisonJob job{reference.has_path() ? *reference.path() : "the reference",
                     actual.has_path() ? *actual.path() : "the actual picture"};
@@ -100,9 +97,7 @@ class Comparison {
   const std::vector<FrameComparison>& rows() const noexcept { return rows_; }
   std::vector<std::string> lines() const {
     if (pair_) return {line_of(*pair_)};
-    std::vector<std::string> lines;
-    lines_.for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
-    if (const std::string rest = lines_.rest(); !rest.empty()) lines.push_back(rest);
+    std::vector<std::string> lines = lines_.all();
     lines.push_back(printable(summary_text(job_, result_)));
     return lines;
   }
@@ -204,7 +199,7 @@ class Comparison {
 };
 
 std::shared_ptr<Comparison> compare_sides(const Picture& reference, const Picture& actual,
-                                          const std::map<std::string, std::string>& options,
+                                          const Options& options,
                                           const std::vector<MaskSource>& masks) {
   std::shared_ptr<Comparison> comparison;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
@@ -242,17 +237,6 @@ py::list rows_of(const Comparison& comparison) {
   py::list rows;
   for (const FrameComparison& row : comparison.rows()) rows.append(fields_of(comparison, row));
   return rows;
-}
-
-py::bytes bytes_object(ByteSpan bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// What make() returns.
-template <typename Make>
-auto without_gil(const Make& make) {
-  const WithoutGil released;
-  return make();
 }
 
 py::dict pictures_of_pair(const Comparison& comparison) {

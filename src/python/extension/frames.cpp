@@ -1,17 +1,15 @@
-#include <fmt/format.h>
 #include <piblocks/encode.hpp>
-#include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <pybind11/pybind11.h>
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "draw/canvas.hpp"
 #include "media/pixels/rgb24.hpp"
-#include "python/extension/canvas_pool.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
 #include "render/renderings.hpp"
@@ -21,12 +19,63 @@ namespace {
 
 namespace py = pybind11;
 
-/// The pixels of a picture, for Python's buffer protocol. It may outlive everything else.
-struct Frame {
-  std::shared_ptr<const CanvasPool::Picture> picture;
+/// Canvases that are painted again as soon as nobody looks at them. Thread-safe. Painting costs
+/// what differs from what the canvas showed before, so the canvas that came back last is taken
+/// first.
+class CanvasPool : public std::enable_shared_from_this<CanvasPool> {
+ public:
+  CanvasPool(int width_px, int height_px, Background background)
+      : width_px_(width_px), height_px_(height_px), background_(background) {}
 
-  ImageView view() const { return picture->view(); }
+  /// The pixels of a picture, which nobody paints over, for Python's buffer protocol. It may
+  /// outlive everything else.
+  class Frame {
+   public:
+    Frame(std::shared_ptr<CanvasPool> pool, std::unique_ptr<Canvas> canvas)
+        : pool_(std::move(pool)), canvas_(std::move(canvas)) {}
+    ~Frame() { pool_->give_back(std::move(canvas_)); }
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+
+    ImageView view() const { return canvas_->view(); }
+
+   private:
+    std::shared_ptr<CanvasPool> pool_;
+    std::unique_ptr<Canvas> canvas_;
+  };
+
+  /// @throws DrawError
+  std::shared_ptr<Frame> paint(DrawList list) {
+    std::unique_ptr<Canvas> canvas = take();
+    if (!canvas) canvas = std::make_unique<Canvas>(width_px_, height_px_, background_);
+    canvas->update(std::move(list));
+    return std::make_shared<Frame>(shared_from_this(), std::move(canvas));
+  }
+
+ private:
+  /// Two, because a loop still has the last picture when it asks for the next.
+  static constexpr std::size_t kMostIdle = 2;
+
+  std::unique_ptr<Canvas> take() {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return nullptr;
+    std::unique_ptr<Canvas> canvas = std::move(idle_.back());
+    idle_.pop_back();
+    return canvas;
+  }
+  void give_back(std::unique_ptr<Canvas> canvas) {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.size() < kMostIdle) idle_.push_back(std::move(canvas));
+  }
+
+  int width_px_;
+  int height_px_;
+  Background background_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Canvas>> idle_;
 };
+
+using Frame = CanvasPool::Frame;
 
 /// Every frame and every instant of a script. What they need is made when the first is asked for.
 class Pictures {
@@ -40,17 +89,16 @@ class Pictures {
     const WithoutGil released;
     return film().frame_count();
   }
-  Frame frame(std::int64_t number) {
+  std::shared_ptr<Frame> frame(std::int64_t number) {
     const WithoutGil released;
     const Film& all = film();
     if (number < 0 || number >= all.frame_count()) throw std::out_of_range("no such frame");
-    return {pool_->paint(all.frame(number))};
+    return pool_->paint(all.frame(number));
   }
   /// The picture of 'piblocks still'.
-  Frame still(const std::string& at) {
+  std::shared_ptr<Frame> still(const std::string& at) {
     const WithoutGil released;
-    const Instant instant = *cli::OptionMap({{"t", at}}).value("t", parse_instant);
-    return {pool_->paint(list_at(instant))};
+    return pool_->paint(list_at(instant_of("t", at)));
   }
   /// Simulation time of a frame of a single scene.
   double time_of(std::int64_t number) {
@@ -107,20 +155,16 @@ void copy_rgba(const Frame& frame, const py::buffer& buffer) {
 }
 
 py::bytes png_of(const Frame& frame) {
-  std::vector<std::uint8_t> png;
-  {
-    const WithoutGil released;
-    png = encode_png(frame.view());
-  }
-  return {reinterpret_cast<const char*>(png.data()), png.size()};
+  return bytes_object(without_gil([&] { return encode_png(frame.view()); }));
 }
 
 }  // namespace
 
 void bind_frames(py::module_& module) {
-  py::class_<Frame>(module, "Frame", py::buffer_protocol(),
-                    "Pixels of one picture, as a read-only buffer of height x width x 4 bytes: "
-                    "blue, green, red, and alpha, which the colours are multiplied by.")
+  py::class_<Frame, std::shared_ptr<Frame>>(
+      module, "Frame", py::buffer_protocol(),
+      "Pixels of one picture, as a read-only buffer of height x width x 4 bytes: "
+      "blue, green, red, and alpha, which the colours are multiplied by.")
       .def_property_readonly("has_alpha", [](const Frame& frame) { return frame.view().has_alpha; })
       .def("copy_rgba", &copy_rgba, py::arg("buffer"), "Fills rows of R, G, B, straight alpha.")
       .def("png", &png_of, "The picture as a PNG file.")

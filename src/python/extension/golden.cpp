@@ -1,22 +1,19 @@
 #include <piblocks/compare.hpp>
-#include <piblocks/error.hpp>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/golden_actions.hpp"
-#include "cli/script_facts.hpp"
 #include "core/processors.hpp"
 #include "core/text.hpp"
 #include "core/unfinished.hpp"
 #include "golden/reports.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
+#include "python/extension/without_gil.hpp"
 #include "render/references.hpp"
 
 namespace piblocks::python {

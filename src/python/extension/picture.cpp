@@ -4,7 +4,6 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -16,15 +15,14 @@
 #include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "draw/look.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
+#include "python/extension/without_gil.hpp"
 #include "render/renderings.hpp"
 
 namespace piblocks::python {
 namespace {
 
 namespace py = pybind11;
-using Options = std::map<std::string, std::string>;
 
 RenderJob make_job(const BoundScript& bound, const std::string& output,
                    const cli::OptionMap& options) {
@@ -84,13 +82,9 @@ void check_still(const BoundScript& bound, const std::string& output, const char
   check.check();
 }
 
-Instant instant_of(const std::string& text) {
-  return *cli::OptionMap({{"--at", text}}).value("--at", parse_instant);
-}
-
 void still_file(const BoundScript& bound, const std::string& at, const std::string& output) {
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
-    const Instant instant = instant_of(at);
+    const Instant instant = instant_of("--at", at);
     check_still(bound, output, "still");
     render_still(bound.script, instant, output, stop);
   });
@@ -108,9 +102,9 @@ std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format,
 py::bytes still_bytes(const BoundScript& bound, const std::string& at, const std::string& format) {
   std::vector<std::uint8_t> bytes;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
-    bytes = draw(still_picture(bound.script, instant_of(at), stop), format, stop);
+    bytes = draw(still_picture(bound.script, instant_of("--at", at), stop), format, stop);
   });
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  return bytes_object(bytes);
 }
 
 void sheet_file(const BoundScript& bound, const std::string& output, const Options& texts) {

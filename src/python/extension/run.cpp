@@ -11,10 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "cli/log_rows.hpp"
 #include "cli/script_facts.hpp"
 #include "core/stop.hpp"
-#include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
 #include "scene/run_log.hpp"
@@ -24,7 +22,6 @@ namespace piblocks::python {
 namespace {
 
 namespace py = pybind11;
-using Options = std::map<std::string, std::string>;
 
 /// A scene and its log. Nothing is computed yet.
 class BoundRun {
@@ -54,12 +51,11 @@ class BoundRun {
 
 /// The index of the first row, and their number, both hexadecimal.
 py::tuple select(const BoundRun& run, const Options& options) {
-  cli::Rows rows;
-  {
-    const WithoutGil released;
-    rows = cli::select_rows(cli::OptionMap(options), run.log());
-    require_certain(run.scene(), run.log(), rows.until);
-  }
+  const cli::Rows rows = without_gil([&] {
+    cli::Rows selected = cli::select_rows(cli::OptionMap(options), run.log());
+    require_certain(run.scene(), run.log(), selected.until);
+    return selected;
+  });
   return py::make_tuple(hexadecimal(rows.first), hexadecimal(rows.count()));
 }
 
@@ -81,7 +77,7 @@ void fill_log(const BoundRun& run, const std::string& first_text, const py::buff
 using Times = std::variant<std::vector<std::string>, py::buffer>;
 
 Rational time_of_text(const std::string& text, const Log& log) {
-  return time_of(*cli::OptionMap({{"t", text}}).value("t", parse_instant), log);
+  return time_of(instant_of("t", text), log);
 }
 
 Rational time_of_number(double value, const Log& log) {

@@ -52,15 +52,10 @@ void check_keys(const std::vector<KeyTexts>& keys) {
   refuse_several(keys, {"time.speed", "time.duration"}, "the speed");
 }
 
-std::vector<std::pair<std::string, std::string>> described(const BoundScript& bound) {
-  return std::visit([](const auto& any) { return describe(any); }, bound.script);
-}
-
 /// Texts as bytes, because a title or a path may be no UTF-8.
 std::vector<std::pair<py::bytes, py::bytes>> description(const BoundScript& bound) {
-  std::vector<std::pair<py::bytes, py::bytes>> values;
-  for (const auto& [key, text] : described(bound)) values.emplace_back(key, text);
-  return values;
+  const auto texts = std::visit([](const auto& any) { return describe(any); }, bound.script);
+  return {texts.begin(), texts.end()};
 }
 
 /// All keys of a scene file outside of its parts.
@@ -165,6 +160,14 @@ std::span<std::uint8_t> bytes_of(const pybind11::buffer& buffer, std::size_t siz
     expected *= info.shape[axis];
   }
   return {static_cast<std::uint8_t*>(info.ptr), size_bytes};
+}
+
+pybind11::bytes bytes_object(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+Instant instant_of(const std::string& option, const std::string& text) {
+  return *cli::OptionMap(Options{{option, text}}).value(option, parse_instant);
 }
 
 std::string hexadecimal(const Integer& value) { return value.get_str(16); }

@@ -3,6 +3,7 @@
 // script.
 #pragma once
 
+#include <piblocks/instant.hpp>
 #include <piblocks/script.hpp>
 #include <pybind11/pybind11.h>
 
@@ -14,11 +15,14 @@
 #include <tuple>
 #include <vector>
 
-#include "cli/destination.hpp"
 #include "cli/option_texts.hpp"
+#include "cli/render_job.hpp"
 #include "core/overwrite_check.hpp"
 
 namespace piblocks::python {
+
+/// Options of a command, and their texts.
+using Options = std::map<std::string, std::string>;
 
 /// The name of a keyword, the key of the scene file that it sets, and the texts of its value;
 /// without texts the key has its default, whatever the file says.
@@ -32,10 +36,9 @@ struct Recipe {
   std::vector<KeyTexts> keys;       ///< win over the text, later ones over earlier ones
 
   /// @throws SceneError, UsageError
-  Script script() const { return script({}, {}); }
   /// @param defaults  win over the text, but not over keys. @param defaults_origin  as in messages
-  Script script(const std::vector<cli::SceneDefault>& defaults,
-                const std::string& defaults_origin) const;
+  Script script(const std::vector<cli::SceneDefault>& defaults = {},
+                const std::string& defaults_origin = {}) const;
   /// @throws SceneError if the text is no scene file.
   void fill(ScriptBuilder& builder, const std::vector<cli::SceneDefault>& defaults = {},
             const std::string& defaults_origin = {}) const;
@@ -58,6 +61,11 @@ void refuse_standard_output(const std::string& output, const char* operation);
 /// The memory of an array.
 /// @throws std::invalid_argument unless it is writable, without gaps, and has exactly so many bytes
 std::span<std::uint8_t> bytes_of(const pybind11::buffer& buffer, std::size_t size_bytes);
+
+pybind11::bytes bytes_object(std::span<const std::uint8_t> bytes);
+
+/// @param option  named in messages
+Instant instant_of(const std::string& option, const std::string& text);
 
 /// Hexadecimal, because Python limits the length of decimal numbers.
 std::string hexadecimal(const Integer& value);

@@ -1,5 +1,7 @@
 // Work without Python's global lock, which the interpreter waits for when it ends.
-// In: a scope, entered with the lock. Out: the lock is free as long as the scope lasts.
+// In: a scope, entered with the lock; or long work, which looks at a stop token and calls Python
+// now and then. Out: the lock is free as long as the scope lasts; the work has run, or what it
+// threw, or what Python threw meanwhile: KeyboardInterrupt, or the exception of a callback.
 //
 // An interpreter that ends kills each thread that asks for the lock, by unwinding its stack. C++
 // code does not survive that. So the interpreter waits at exit until all scopes are left. A thread
@@ -7,6 +9,9 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+
+#include <functional>
+#include <stop_token>
 
 namespace piblocks::python {
 
@@ -17,8 +22,6 @@ class WithoutGil {
   WithoutGil(const WithoutGil&) = delete;
   WithoutGil& operator=(const WithoutGil&) = delete;
 
-  /// Whether the work is to end, because the interpreter does.
-  bool is_closing() const noexcept;
   /// Takes the lock for a while, and gives it back.
   void take() { PyEval_RestoreThread(state_); }
   void give() { state_ = PyEval_SaveThread(); }
@@ -27,10 +30,25 @@ class WithoutGil {
   PyThreadState* state_ = nullptr;
 };
 
-/// Waits for the end of the process.
-[[noreturn]] void wait_for_exit();
+/// What make() returns, which is called without the lock.
+template <typename Make>
+auto without_gil(const Make& make) {
+  const WithoutGil released;
+  return make();
+}
 
 /// Lets the interpreter wait before it ends. Once, when the module is loaded.
 void wait_for_work_at_exit();
+
+/// Runs a function in the thread that waits, with the GIL, and returns when it has ended. After an
+/// exception it runs no more.
+using CallBack = std::function<void(const std::function<void()>& function)>;
+
+using InterruptibleWork = std::function<void(const std::stop_token& stop, const CallBack& call)>;
+
+/// Calls `work` in a thread of its own, without the GIL. The caller, which has the GIL, gives it up
+/// while it waits, and takes it for signals and callbacks.
+/// @throws what the work or a callback throws; of both, the callback's
+void run_interruptibly(const InterruptibleWork& work);
 
 }  // namespace piblocks::python

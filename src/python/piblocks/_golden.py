@@ -52,13 +52,8 @@ def act(
     script: _piblocks.Script, action: str, name: Any, folder: Any, frames: Any, diff: Any
 ) -> GoldenResult:
     ok, outcome, lines = _piblocks.golden(
-        script,
-        action,
-        _name(name),
-        path("dir", folder),
-        _frames(frames),
-        None if diff is None else path("diff", diff),
-    )
+        script, action, _name(name), path("dir", folder), _frames(frames),
+        None if diff is None else path("diff", diff))
     return GoldenResult(ok, outcome, tuple(lines))
 
 

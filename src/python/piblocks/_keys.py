@@ -6,6 +6,7 @@ keys that begin with its name.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any, Optional, Union
 
@@ -94,13 +95,7 @@ def fit_into_one_call(keys: list[KeyTexts]) -> bool:
 
 
 def _toml_string(text: bytes) -> bytes:
-    parts = []
-    for byte in text:
-        if byte < 0x20 or byte == 0x7F or byte in b'"\\':
-            parts.append(b"\\u%04X" % byte)
-        else:
-            parts.append(bytes([byte]))
-    return b'"' + b"".join(parts) + b'"'
+    return b'"%s"' % re.sub(rb'[\0-\x1f\x7f"\\]', lambda match: b"\\u%04X" % match[0][0], text)
 
 
 def _value_of_part(name: str, value: Any) -> Union[bytes, list[bytes], list[Table]]:

@@ -38,22 +38,21 @@ class Rendered:
         return file_player(self.path)
 
 
-class _Bar:
+def _bar(name: str) -> Progress:
     """Progress on standard error, in one line that is written anew."""
 
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def __call__(self, done: int, total: int) -> None:
+    def show(done: int, total: int) -> None:
         end = "\n" if done == total else ""
-        print(f"\r{self._name}: {done} of {total} frames", end=end, file=sys.stderr, flush=True)
+        print(f"\r{name}: {done} of {total} frames", end=end, file=sys.stderr, flush=True)
+
+    return show
 
 
 def _progress(progress: Union[Progress, bool, None], name: str) -> Progress | None:
     if progress is None or progress is False:
         return None
     if progress is True:
-        return _Bar(name)
+        return _bar(name)
     if not callable(progress):
         raise TypeError(
             f"progress: must be callable, True or None, not {type(progress).__name__}"

@@ -69,14 +69,11 @@ def _dtype(row_type: str) -> np.dtype:
     return np.dtype(ast.literal_eval(row_type))
 
 
-def _with_objects(dtype: np.dtype, name: str) -> np.dtype:
-    return np.dtype([(n, object if n == name else dtype[n]) for n in dtype.names or ()])
-
-
 def _replace_column(rows: np.ndarray, name: str, values: list[Any]) -> np.ndarray:
     """The rows with a column of Python's integers."""
-    result = np.empty(rows.shape, _with_objects(rows.dtype, name))
-    for other in rows.dtype.names or ():
+    names = rows.dtype.names or ()
+    result = np.empty(rows.shape, [(n, object if n == name else rows.dtype[n]) for n in names])
+    for other in names:
         if other != name:
             result[other] = rows[other]
     result[name] = values

@@ -9,17 +9,13 @@ from __future__ import annotations
 import numbers
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from decimal import Decimal
-from fractions import Fraction
 from typing import Any, Union
 
 import numpy as np
 
 from ._errors import UsageError
-
-Number = Union[int, float, Fraction, Decimal]
-Value = Any  # a number, a string, a path, a bool, or a list of these
 
 
 def bytes_of(text: str) -> bytes:
@@ -43,8 +39,6 @@ def text_of_number(value: Any) -> str | None:
         return float.__repr__(value)
     if isinstance(value, np.floating):
         return str(value)
-    if isinstance(value, Fraction):
-        return f"{text_of_integer(value.numerator)}/{text_of_integer(value.denominator)}"
     if isinstance(value, Decimal):
         return str(value)
     if isinstance(value, numbers.Rational):
@@ -124,11 +118,6 @@ def options(given: Mapping[str, Any]) -> dict[bytes, bytes]:
     result = {}
     for option, value in given.items():
         name = option.removeprefix("--").replace("-", "_")
-        if value is None or value is False:
-            continue
-        if value is True:
-            result[option.encode()] = b"true"
-            continue
-        items: Iterable[bytes] = texts(name, value)
-        result[option.encode()] = b",".join(items)
+        if value is not None and value is not False:
+            result[option.encode()] = b",".join(texts(name, value))
     return result

@@ -24,9 +24,9 @@ import pytest
 
 from . import _golden
 from ._compare import TOLERANCE
-from ._golden_picture import REMEDY, GoldenPictures, check_or_keep
+from ._golden_picture import (
+    CLAIMS, REMEDY, GoldenPictures, check_or_keep, claim, place, results_folder)
 from ._picture import is_picture
-from ._references import CLAIMS, claim, place, results_folder
 from ._scene import Scene
 
 _MARK = "piblocks_golden"

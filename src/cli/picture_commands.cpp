@@ -1,15 +1,18 @@
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
 
+#include <chrono>
+#include <string>
+#include <vector>
+
 #include "cli/command.hpp"
-#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/render_job.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -41,8 +44,7 @@ void run_render(const Command& options, const SceneOptions& scene) {
   if (quiet) return;
   note_all(rendered.notes);
   note_frame_rate(options, view_of(job.script).frame_rate);
-  note_convention(job.script);
-  note_contrast(job.script);
+  note_picture(job.script);
   if (report.is_seen() && !scene.has_scene())
     say("for a lecture: piblocks render why-pi -o why-pi.mp4\n");
 }
@@ -109,6 +111,32 @@ void run_join(const Command& options) {
       after_semicolon(joined.aftermath));
 }
 
+void run_still(const Command& options, const SceneOptions& scene_options) {
+  refuse_terminal(options);
+  const Script script = scene_options.script();
+  scene_options.check_output(script);
+  const StopOnSignals signals;
+  const std::string output = output_of(options);
+  note_all(render_still(script, *options.value("--at", parse_instant), output, signals.token()));
+  note_picture(script);
+  if (has_ending(output, ".svg") || has_ending(output, ".pdf")) note_sharp(script);
+}
+
+void run_sheet(const Command& options, const SceneOptions& scene_options) {
+  refuse_terminal(options);
+  const Scene scene = scene_options.scene();
+  scene_options.check_output(scene);
+  const SheetInstants instants = sheet_instants(options);
+  const StopOnSignals signals;
+  ProgressReport report(output_of(options), false,
+                        {.unit = "pictures", .delay = std::chrono::seconds(1)});
+  note_all(render_sheet(
+      scene, instants, output_of(options),
+      [&](const Progress& progress) { report.update(progress); }, signals.token()));
+  note_picture(scene);
+  note_sharp(scene);
+}
+
 }  // namespace
 
 void define_render(Command& command) {
@@ -148,6 +176,45 @@ void define_join(Command& command) {
       "  piblocks render --part 2/2 -o pi.mp4    # on another: pi.mp4.part-2-of-2\n"
       "  piblocks join pi.mp4.part-* -o pi.mp4   # the bytes of 'piblocks render -o pi.mp4'");
   command.on_run([=] { run_join(command); });
+}
+
+void define_still(Command& command) {
+  SceneOptions scene(command);
+  command.add_required_value("--at", "T",
+                             "Instant: a time, 'turn', 'last', or '#K' for collision K; an\n"
+                             "offset may follow, as in turn-0.3 and last+1. Of a storyboard:\n"
+                             "a second of its video, or 'last' for its last frame");
+  command.add_required_value("-o,--output", "OUT",
+                             "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)");
+  scene.add_picture();
+  scene.add_show();
+  scene.add_exposure();
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks still --at 3.5 -o turn.svg\n"
+      "  piblocks still scene.toml --at '#10' --size 640x360 -o tenth.png");
+  command.on_run([=] { run_still(command, scene); });
+}
+
+void define_sheet(Command& command) {
+  SceneOptions scene(command);
+  command.add_value("--frames", "N", "So many instants, spread over the run (default 12)");
+  command.add_value("--by", "WHAT",
+                    "Spread them evenly by 'count' of collisions or by 'time'\n"
+                    "(default: by count if the turn is shown and no two pictures\n"
+                    "would have the same count; otherwise by time)");
+  command.add_value("--at", "T[,T...]", "Or these instants: 3.5, turn-0.3, last+1, '#314'");
+  command.add_required_value("-o,--output", "OUT",
+                             "NAME.pdf, NAME.png, NAME.svg, or - (PNG on standard output)");
+  scene.add_size();
+  scene.add_show();
+  scene.add_span();
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks sheet -o sheet.pdf\n"
+      "  piblocks sheet --digits 2 --frames 32 --by count -o every-collision.pdf\n"
+      "  piblocks sheet --digits 2 --at '0,#1,#10,#20,last' -o collisions.svg");
+  command.on_run([=] { run_sheet(command, scene); });
 }
 
 }  // namespace piblocks::cli
