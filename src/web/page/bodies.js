@@ -1,7 +1,7 @@
 // The table of a scene's bodies.
 // In: what the program says of a scene with bodies. Out: edits of keys such as "body 2.mass".
 
-import {byId, element, sayIn} from "./dom.js";
+import {byId, element, lineOf, sayIn} from "./dom.js";
 import {wordsOf} from "./program.js";
 
 const AXES = ["x", "y"];
@@ -81,19 +81,15 @@ export class Bodies {
   #cell(row, number, column) {
     const {name, property, i} = column;
     const value = i === undefined ? row[property] : row[property][i];
-    const input = element("input", {type: "text", spellcheck: false, autocapitalize: "off", value,
-      "aria-label": `Body ${number}, ${name}`, "aria-describedby": "bodies-problem"});
-    input.dataset.property = property;
-    input.addEventListener("input", () => {
+    const key = `body ${number}.${this.#keyOf(property)}`;
+    const onInput = () => {
       const cells = this.#cells[number - 1].filter(cell => cell.dataset.property === property);
       const words = cells.map(cell => cell.value.replace(/[\t\n\r]+/g, " ")).join("\t");
-      this.#session.edit(`body ${number}.${this.#keyOf(property)}`, words, true);
-    });
-    input.addEventListener("keydown", event => {
-      if (event.key !== "Escape") return;
-      input.blur();
-      this.#session.forget(`body ${number}.${this.#keyOf(property)}`);
-    });
+      this.#session.edit(key, words, true);
+    };
+    const input = lineOf({onInput, onEscape: () => this.#session.forget(key)},
+      {value, "aria-label": `Body ${number}, ${name}`, "aria-describedby": "bodies-problem"});
+    input.dataset.property = property;
     input.addEventListener("blur", () => {
       setTimeout(() => this.#facts && this.update({bodies: this.#facts}), 300);
     });

@@ -4,6 +4,8 @@
 export const byId = id => document.getElementById(id);
 /** @returns {any[]} the elements that a selector of CSS finds */
 export const all = selector => [...document.querySelectorAll(selector)];
+/** What the address says after its question mark. */
+export const options = new URLSearchParams(location.search);
 /** @returns {any} what an event has happened to */
 export const targetOf = event => event.target;
 
@@ -17,6 +19,39 @@ export function element(name, properties = {}, ...children) {
   }
   made.append(...children);
   return made;
+}
+
+/** A line of text. @param given  what it does at each input, and at Escape: the last value comes back
+ * @returns {any} */
+export function lineOf({onInput, onEscape}, properties) {
+  const line = element("input", {type: "text", spellcheck: false, autocapitalize: "off", ...properties});
+  line.addEventListener("input", onInput);
+  line.addEventListener("keydown", event => {
+    if (event.key !== "Escape") return;
+    line.blur();
+    onEscape();
+  });
+  return line;
+}
+
+/** Calls something so many milliseconds after the last start(). */
+export function delayed(ms, action) {
+  const delay = {timer: null,
+    start() {
+      delay.stop();
+      delay.timer = setTimeout(() => {
+        delay.timer = null;
+        action();
+      }, ms);
+    },
+    stop() {
+      clearTimeout(delay.timer);
+      delay.timer = null;
+    },
+    get isRunning() {
+      return delay.timer !== null;
+    }};
+  return delay;
 }
 
 /** Shows words; writes them only if they differ, so that they are read out once. */

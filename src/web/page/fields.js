@@ -1,7 +1,7 @@
 // The fields of a scene's keys.
 // In: what the program says of a scene. Out: edits of its keys; problems beside the fields.
 
-import {approximate, byId, element, sayIn} from "./dom.js";
+import {approximate, byId, element, lineOf, sayIn} from "./dom.js";
 import {wordsOf} from "./program.js";
 
 /** {key, label} and more: `slider` is [minimum, maximum, step], of which the program may allow a part;
@@ -88,14 +88,11 @@ class Field {
     this.inputs.push(made);
     return made;
   }
-  makeLine(properties) {
-    const made = this.makeInput({type: "text", spellcheck: false, autocapitalize: "off", ...properties});
-    made.addEventListener("keydown", event => {
-      if (event.key !== "Escape") return;
-      made.blur();
-      this.session.forget(this.spec.key);
-    });
+  makeLine(onInput, properties) {
+    const made = lineOf({onInput, onEscape: () => this.session.forget(this.spec.key)},
+      {"aria-describedby": this.problem.id, ...properties});
     made.addEventListener("blur", () => this.refresh());
+    this.inputs.push(made);
     return made;
   }
 
@@ -106,7 +103,7 @@ class Field {
   }
 
   makeText() {
-    const main = this.makeLine({id: this.id});
+    const main = this.makeLine(() => this.typed(main.value), {id: this.id});
     const {slider, hints, empty} = this.spec;
     const values = [main];
     if (empty !== undefined) main.placeholder = "default";
@@ -114,7 +111,6 @@ class Field {
       main.setAttribute("list", `${this.id}-hints`);
       values.push(element("datalist", {id: `${this.id}-hints`}, ...hints.map(value => element("option", {value}))));
     }
-    main.addEventListener("input", () => this.typed(main.value));
     if (slider) values.unshift(this.makeSlider(value => main.value = value));
     this.showValue = facts => {
       if (document.activeElement !== main) main.value = this.textOf(facts);
@@ -218,11 +214,9 @@ class Field {
   }
 
   makeRange() {
-    const ends = ["low", "high"].map((end, i) => this.makeLine({id: i ? `${this.id}-high` : this.id,
-      "aria-label": `${this.spec.label}, ${end} end`}));
-    for (const end of ends) {
-      end.addEventListener("input", () => this.typed(ends.map(one => one.value).join("\t")));
-    }
+    const onInput = () => this.typed(ends.map(one => one.value).join("\t"));
+    const ends = ["low", "high"].map((end, i) => this.makeLine(onInput,
+      {id: i ? `${this.id}-high` : this.id, "aria-label": `${this.spec.label}, ${end} end`}));
     this.showValue = facts => ends.forEach((end, i) => {
       if (document.activeElement !== end) end.value = facts.keys[this.spec.key][i];
     });

@@ -1,12 +1,14 @@
 // What has been shown: each scene and each edit is a step back.
 // In: accepted scenes. Out: steps in the browser's history, whose Back and Forward go through them.
 
+import {options} from "./dom.js";
+
 /** Changes of one key that follow each other so soon are one step: a slider that is dragged. */
 const ONE_STEP_ms = 1000;
 /** Steps of an earlier load of the page are only addresses. */
 const LOAD = Math.random();
 /** A page inside another one leaves that one's Back alone. */
-const isEmbedded = new URLSearchParams(location.search).get("embed") === "1";
+const isEmbedded = options.get("embed") === "1";
 
 const isOwnStep = () => history.state?.load === LOAD;
 

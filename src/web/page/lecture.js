@@ -2,7 +2,7 @@
 // In: the size of the window, a press of the button "full-screen". Out: the size in which the program
 // lays the picture out; a bar that fades.
 
-import {byId} from "./dom.js";
+import {byId, delayed} from "./dom.js";
 
 const BAR_ms = 2000;
 /** More pixels than most projectors have; in fewer than the least there is no room for text. */
@@ -22,7 +22,7 @@ function pixelsOf(width, height) {
 export class Lecture {
   #session;
   #screen = byId("screen");
-  #timer = null;
+  #idle = delayed(BAR_ms, () => document.body.classList.add("idle"));
   #isOn = false;
 
   constructor(session) {
@@ -75,7 +75,7 @@ export class Lecture {
 
   #leave() {
     this.#isOn = false;
-    clearTimeout(this.#timer);
+    this.#idle.stop();
     document.body.classList.remove("lecture", "idle");
     this.#screen.classList.remove("blank");
     byId("settings").inert = false;
@@ -86,7 +86,6 @@ export class Lecture {
 
   #showBar() {
     document.body.classList.remove("idle");
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => document.body.classList.add("idle"), BAR_ms);
+    this.#idle.start();
   }
 }

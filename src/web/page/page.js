@@ -2,7 +2,7 @@
 // tells what the program makes of them, and the parts show that.
 
 import {Bodies} from "./bodies.js";
-import {byId, element, sayIn, targetOf} from "./dom.js";
+import {byId, delayed, element, options, sayIn, targetOf} from "./dom.js";
 import {Fields} from "./fields.js";
 import {Steps} from "./history.js";
 import {listenToKeys} from "./keys.js";
@@ -18,7 +18,6 @@ import {Stage} from "./stage.js";
 
 /** What is shown if nothing else can be. */
 const FIRST_SCENE = "lecture";
-const options = new URLSearchParams(location.search);
 if (options.get("embed") === "1") document.body.classList.add("embedded");
 if (options.get("controls") === "0") document.body.classList.add("bare");
 
@@ -41,10 +40,12 @@ new Lecture(session);
 listenToKeys(() => steps.undo());
 
 const text = byId("text");
-let busyTimer = null;
-let textTimer = null;
-let addressTimer = null;
-let choicesTimer = null;
+/** A text that is typed goes to the program when the hands rest. */
+const typing = delayed(150, () => session.open(text.value));
+const busyNotice = delayed(400, () => byId("busy").hidden = false);
+/** Browsers allow few changes of the address a second. */
+const addressUpdate = delayed(250, () => addressOfScene && !player.isPlaying && steps.update(addressNow()));
+const choicesUpdate = delayed(150, updateChoices);
 /** The facts of the scene whose choices are known or asked for. */
 let choicesOf = null;
 /** Whether somebody has typed what the program has not seen, or has refused. */
@@ -53,7 +54,7 @@ let isTextNewer = false;
 let linkProblem = "";
 let shown = null;
 /** The part of the address that names the scene; made once for each scene. */
-let address = "";
+let addressOfScene = "";
 let leftOut = [];
 /** The key that was edited last before something was left out, and its edits until then. */
 let cause = null;
@@ -70,19 +71,19 @@ const shippedText = name => scenes.find(one => one.name === name).text;
 /** Writes the scene into the text area, if nothing newer is there. */
 function showText() {
   const isUsed = document.activeElement === text && isTextNewer;
-  if (isUsed || textTimer !== null || session.isTextWaiting || session.problemsOf(TEXT).length > 0) return;
+  if (isUsed || typing.isRunning || session.isTextWaiting || session.problemsOf(TEXT).length > 0) return;
   if (text.value !== session.text) text.value = session.text;
   isTextNewer = false;
 }
 
 /** Shows another scene.
- * @param {import("./session.js").Place} place */
-function open(words, place = {frame: 0}) {
-  clearTimeout(textTimer);
-  textTimer = null;
+ * @param {import("./session.js").Place} place
+ * @param problem  why it is not the one that the address names */
+function open(words, place = {frame: 0}, problem = "") {
+  typing.stop();
   isTextNewer = false;
   player.pause();
-  linkProblem = "";
+  linkProblem = problem;
   text.value = words;
   session.open(words, place);
 }
@@ -94,7 +95,7 @@ session.onShown = now => {
   player.updateShown(now);
   readouts.show(now, session.facts);
   if (!player.isPlaying) describePicture();
-  updateAddress();
+  addressUpdate.start();
 };
 
 /** Steps are read out; what is played is not. */
@@ -110,23 +111,15 @@ player.onStep = () => {
   invitation.hidden = true;
 };
 
-/** Once nothing has changed for a while: browsers allow few changes of the address a second. */
-function updateAddress() {
-  clearTimeout(addressTimer);
-  addressTimer = setTimeout(() => {
-    if (address && !player.isPlaying) steps.update(addressNow());
-  }, 250);
-}
-
 /** A link from a film that is playing begins at its start. */
-const addressNow = () => address + (shown && player.isPlaceChosen ? placeAddress(session.snapshot.place, shown, session.facts.rate) : "");
+const addressNow = () => addressOfScene + (shown && player.isPlaceChosen ? placeAddress(session.snapshot.place, shown, session.facts.rate) : "");
 
 async function updateScene() {
   const {text} = session;
   const made = await sceneAddress(text, shippedScene()?.name);
   if (text !== session.text) return;
-  address = made;
-  updateAddress();
+  addressOfScene = made;
+  addressUpdate.start();
 }
 
 session.onOpened = (facts, left) => {
@@ -152,31 +145,27 @@ session.onOpened = (facts, left) => {
   sayLeftOut();
   updateScene();
   document.body.dataset.hasChoices = "false";  // for tests, which wait for it
-  clearTimeout(choicesTimer);
   choicesOf = null;
-  choicesTimer = setTimeout(updateChoices, 150);
+  choicesUpdate.start();
   if (firstPlace) invite(firstPlace);
   firstPlace = null;
 };
 
 async function updateChoices() {
-  clearTimeout(choicesTimer);
+  choicesUpdate.stop();
   const {facts} = session;
   // While nobody sees them, they would only keep the program from its frames.
   if (!facts || facts === choicesOf || !byId("more").open && !facts.bodies) return;
-  if (session.isBusy) {
-    choicesTimer = setTimeout(updateChoices, 150);
-    return;
-  }
+  if (session.isBusy) return choicesUpdate.start();
   choicesOf = facts;
-  const choices = await session.choices().catch(() => null);
+  const made = await session.choices().catch(() => null);
   if (facts !== session.facts) return;
-  if (!choices) {
+  if (!made) {
     choicesOf = null;
     return;
   }
-  fields.disable(choices);
-  bodies.setRoom(choices.room);
+  fields.disable(made);
+  bodies.setRoom(made.room);
   document.body.dataset.hasChoices = "true";
 }
 
@@ -224,10 +213,10 @@ session.onPlaceProblem = words => {
 
 session.onBusy = isBusy => {
   document.body.dataset.isBusy = String(isBusy);  // for tests, which wait for it
-  clearTimeout(busyTimer);
-  if (isBusy) busyTimer = setTimeout(() => byId("busy").hidden = false, 400);
-  else byId("busy").hidden = true;
-  if (!isBusy) document.documentElement.className = "";  // no poster: the program has drawn, or failed
+  if (isBusy) return busyNotice.start();
+  busyNotice.stop();
+  byId("busy").hidden = true;
+  document.documentElement.className = "";  // no poster: the program has drawn, or failed
 };
 
 byId("stop").addEventListener("click", () => {
@@ -244,19 +233,12 @@ steps.onRestored = () => {
   player.pause();
   linkProblem = "";
 };
-steps.onAddress = async () => {
-  const wanted = await wantedByAddress();
-  if (wanted) open(wanted.text, wanted.place);
-};
+steps.onAddress = () => openAddress(null);
 
 text.addEventListener("input", () => {
-  clearTimeout(textTimer);
   isTextNewer = true;
   linkProblem = "";
-  textTimer = setTimeout(() => {
-    textTimer = null;
-    session.open(text.value);
-  }, 150);
+  typing.start();
 });
 text.addEventListener("blur", showText);
 byId("show-text").addEventListener("click", () => session.facts && open(session.text, session.snapshot.place));
@@ -287,19 +269,15 @@ function invite(place) {
   requestAnimationFrame(() => player.play({isSilent: true}));
 }
 
-/** @returns text and place of the address; null if it has no scene. */
-async function wantedByAddress() {
-  try {
-    return await sceneOf(location.hash, scenes);
-  } catch (error) {
-    linkProblem = `Link: ${error.message}`;
-    sayIn(byId("problem"), linkProblem);
-    return null;
-  }
+/** Opens the scene that the address names; the other one if it names none, or cannot be read. */
+async function openAddress(otherwise) {
+  let problem = "";
+  const wanted = await sceneOf(location.hash, scenes).catch(error => {
+    linkProblem = problem = `Link: ${error.message}`;
+    sayIn(byId("problem"), problem);
+  }) ?? otherwise;
+  if (wanted) open(wanted.text, wanted.place, problem);
+  return wanted;
 }
 const given = JSON.parse(byId("opened-scene").textContent);
-const first = await wantedByAddress() ?? {text: given?.text ?? shippedText(FIRST_SCENE), place: {frame: 0}};
-const problem = linkProblem;
-firstPlace = first.place;
-open(first.text, first.place);
-linkProblem = problem;
+firstPlace = (await openAddress({text: given?.text ?? shippedText(FIRST_SCENE), place: {frame: 0}})).place;

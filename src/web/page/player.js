@@ -1,7 +1,7 @@
 // Time: the film runs, or goes from frame to frame and from collision to collision.
 // In: what is shown, buttons, keys. Out: places to show.
 
-import {all, approximate, byId, sayIn} from "./dom.js";
+import {all, approximate, byId, delayed, sayIn} from "./dom.js";
 import {SoundPlayer} from "./sound.js";
 
 const seconds = () => performance.now() / 1000;
@@ -22,7 +22,7 @@ export class Player {
   #clock_s = seconds;
   /** Identifies the playback that goes on; a newer one replaces it. */
   #playback = null;
-  #restart = null;
+  #restart = delayed(300, () => this.#isPlaying && this.play());
   onPause = () => {};
   /** Somebody has stepped to another place, or has gone there. */
   onStep = () => {};
@@ -116,7 +116,7 @@ export class Player {
     this.isPlaceChosen = false;
     this.#setPlaying(true);
     this.#sound.stop();
-    clearTimeout(this.#restart);
+    this.#restart.stop();
     const playback = {};
     this.#playback = playback;
     this.#setClock(second, seconds);
@@ -155,7 +155,7 @@ export class Player {
   /** Silently while somebody still changes it; its sound begins a moment after the last change. */
   #goOnInAnotherFilm() {
     this.play({isSilent: true});
-    if (this.#isSoundOn) this.#restart = setTimeout(() => this.#isPlaying && this.play(), 300);
+    if (this.#isSoundOn) this.#restart.start();
   }
 
   #tick(playback) {
@@ -172,7 +172,7 @@ export class Player {
 
   pause() {
     this.#sound.stop();
-    clearTimeout(this.#restart);
+    this.#restart.stop();
     this.#playback = null;
     this.isPlaceChosen = true;
     const wasPlaying = this.#isPlaying;
