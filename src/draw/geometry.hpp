@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/rounded.hpp"
+
 namespace piblocks {
 
 /// From the frame's upper left corner, y down. Whole numbers are the lines between pixels. Also the
@@ -96,6 +98,26 @@ struct Rect {
   }
   constexpr bool holds(const Rect& inner) const {
     return x <= inner.x && inner.right() <= right() && y <= inner.y && inner.bottom() <= bottom();
+  }
+};
+
+struct Circle {
+  Point centre;
+  double radius = 0;
+  /// @param angle  counter-clockwise, from the right
+  Point at(double angle) const {
+    const auto [sine, cosine] = rounded::sin_cos(angle);
+    return {centre.x + radius * cosine, centre.y - radius * sine};
+  }
+  std::vector<Point> arc(double from, double to, int steps) const {
+    std::vector<Point> points;
+    for (int i = 0; i <= steps; ++i) points.push_back(at(from + (to - from) * i / steps));
+    return points;
+  }
+  /// Points whose connecting lines are within 0.03 % of the radius.
+  std::vector<Point> arc(double from, double to) const {
+    constexpr double kStep = 0.05;  // radians
+    return arc(from, to, std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kStep))));
   }
 };
 

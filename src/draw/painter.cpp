@@ -66,7 +66,7 @@ bool has_pixels_of_picture(cairo_t& cr) {
   cairo_get_matrix(&cr, &matrix);
   const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
                            matrix.x0 == 0 && matrix.y0 == 0;
-  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+  return is_identity && has_pixels(cr);
 }
 
 bool is_small(const DiscItem& disc) {
@@ -76,7 +76,7 @@ bool is_small(const DiscItem& disc) {
 
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rect& bounds) {
   cairo_set_source_surface(&cr, &pixels, bounds.x, bounds.y);
-  cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+  add_rectangle(cr, bounds);
   cairo_fill(&cr);
 }
 
@@ -234,7 +234,7 @@ void Painter::paint(cairo_t& cr, const GroupItem& item, const PixelRect& area) {
   }
   const double scale = bounds.width / item.list->width_px;
   cairo_save(&cr);
-  cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+  add_rectangle(cr, bounds);
   cairo_clip(&cr);
   cairo_translate(&cr, bounds.x, bounds.y);
   cairo_scale(&cr, scale, scale);

@@ -161,7 +161,7 @@ void LoupeInset::place_scenery(const DrawingContext& context) {
   }
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
                                    mirrored(Rect{floor_left, floor_px_, bounds_.width, line}),
-                                   palette_.wall, std::nullopt});
+                                   palette_.wall});
   scenery_ = plate_of(ItemId::wall, {0, 0, bounds_.width, bounds_.height}, std::move(items));
 }
 

@@ -1,8 +1,10 @@
 // The loupe: an inset that shows a gap of a line enlarged.
-// In: the stage and the gap. Out: drawables, and how much of the loupe is seen.
+// In: a scene, its log, the stage. Out: which gap it shows, where it is clear of all else,
+// drawables, and how much of it is seen.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,13 +12,83 @@
 #include <vector>
 
 #include "draw/layout.hpp"
-#include "draw/overlays/loupe_gap.hpp"
-#include "draw/overlays/loupe_place.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/overlays/zoom.hpp"
 #include "draw/stage/hits.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
+
+/// Of two blocks beside something immovable: from there to red, with blue in between. Of other
+/// bodies: between the two that meet first in the loupe's window.
+struct LoupeGap {
+  std::size_t anchor = 0;                   ///< keeps its place: a body; or a wall, as in MetPair
+  std::size_t outer = 1;                    ///< the body on the other side
+  std::optional<std::size_t> between = {};  ///< a block in the gap, which is not enlarged
+  int side = 1;                             ///< -1: outer is on the left
+  double face = 0;                          ///< position of the anchor if that is a wall
+  double meeting = 0;                       ///< where they meet, unless a block is in between
+  double least_px = 0;                      ///< of what it shows, in pixels of the stage
+  std::optional<Span> window = {};          ///< in which it is shown
+  bool is_stage = false;                    ///< it is as wide as most of the frame
+
+  /// The two that meet when the gap closes; of three, the one in between and the outer one.
+  MetPair meeting_pair() const noexcept;
+  FrameNeeds needs() const noexcept {
+    return {.gaps = between.has_value(), .moments = true, .hits = between.has_value()};
+  }
+  /// The loupe enlarges y2. Without a block in between y1 and y2 are both the gap, computed from
+  /// positions, which are doubles.
+  Gaps gaps_in(const FrameState& shown, const Layout& layout) const;
+};
+
+/// Nothing if the scene has no loupe, or leaves it to the program and there is nothing to show.
+/// @throws UsageError if the scene names a window in which there is nothing to show.
+std::optional<LoupeGap> loupe_gap(const DrawingContext& context);
+
+/// Whether the scene has a loupe that is as wide as most of the frame.
+bool has_stage_loupe(const Show& show);
+
+/// Whether the loupe would be seen if it had room.
+bool may_show_loupe(const LayoutContext& context, const AxisPlace& axis);
+
+struct LoupePlace {
+  Rect bounds;         ///< in whole pixels of the frame
+  double rows_px = 0;  ///< height of its rows of text
+  bool is_zoom_beside = true;
+  double lines_px = 0;  ///< where lines to an inset above the blocks begin
+};
+
+/// What the inset has to have room for.
+struct LoupeTexts {
+  double zoom_px = 0;  ///< width of the longest zoom
+  bool has_slow_motion = false;
+};
+
+/// Width of the inset, in pixels.
+double loupe_width_px(const View& view, const Sizes& sizes, bool is_stage);
+
+/// Room for the inset beside two blocks, on the side that they leave to; or above all blocks.
+/// Nothing if there is none.
+std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
+                                           const LoupeGap& gap, const LoupeTexts& texts);
+
+/// Proportions of the inset.
+namespace loupe_style {
+
+// In fractions of the frame's shorter side.
+inline constexpr double kBelowFloor = 0.025;
+inline constexpr double kAboveBlocks = 0.015;
+inline constexpr double kInside = 0.012;   ///< between the inset's edges and what is in it
+inline constexpr double kOutside = 0.025;  ///< between the inset and what is around it
+
+inline constexpr double kRow_em = 1.35;  ///< from one row of text to the next
+/// From this exponent on a zoom is written as a power of ten.
+inline constexpr long kLeastPower = 4;
+/// The loupe is seen in full below this share of the gap at which it begins to be seen.
+inline constexpr double kFullyShown = 0.5;
+
+}  // namespace loupe_style
 
 class LoupeInset {
  public:

@@ -1,5 +1,3 @@
-#include "draw/overlays/loupe_gap.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -8,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "draw/overlays/loupe_place.hpp"
+#include "draw/overlays/loupe.hpp"
 #include "draw/stage/stage.hpp"
 #include "scene/pacing.hpp"
 

@@ -76,9 +76,8 @@ void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items
   const Point from{std::round(gap_.side > 0 ? outer.x + inside : outer.right() - inside), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
   for (std::size_t n = 0; n < corners_.size(); ++n) {
-    items.emplace_back(PathItem{nth(ItemId::wall, kFirstLine + n),
-                                std::vector<Point>{from, corners_.at(n)}, false, std::nullopt,
-                                stroke});
+    items.emplace_back(
+        line_item(nth(ItemId::wall, kFirstLine + n), {from, corners_.at(n)}, stroke));
   }
 }
 
@@ -102,12 +101,9 @@ DrawList LoupeInset::picture(const FrameState& shown, double px_per_unit) const 
   add_blocks(shown, px_per_unit, list.items);
   std::string slow = slow_text_ ? slow_text_(shown) : std::string();
   if (!slow.empty()) {
-    list.items.emplace_back(TextItem{ItemId::label,
-                                     {loupe_style::kInside * sizes_.short_side, slow_baseline_px_},
-                                     std::move(slow),
-                                     sizes_.text,
-                                     palette_.accent,
-                                     face_});
+    const Point at{loupe_style::kInside * sizes_.short_side, slow_baseline_px_};
+    list.items.emplace_back(
+        TextItem{ItemId::label, at, std::move(slow), sizes_.text, palette_.accent, face_});
   }
   if (marks_) add_marks(shown, px_per_unit, list.items);
   list.items.emplace_back(RectangleItem{ItemId::loupe,
@@ -170,7 +166,7 @@ void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
     items.emplace_back(RectangleItem{nth(ItemId::red_block, kSweep),
                                      mirrored(Rect{face_px_, floor_px_ - inner_height_px_,
                                                    outer_x - face_px_, inner_height_px_}),
-                                     faded(between_.fill, swept * kSweepAlpha), std::nullopt});
+                                     faded(between_.fill, swept * kSweepAlpha)});
   }
   add_between(*blocks.between, 1 - swept * (1 - kFastBlock), items);
 }
@@ -215,8 +211,7 @@ void LoupeInset::add_tear(const Rect& block, const Color& color,
   std::vector<Point> outline = edge;
   const Point across{kTearWidth * sizes_.short_side, 0};
   for (auto at = edge.rbegin(); at != edge.rend(); ++at) outline.push_back(*at + across);
-  items.emplace_back(
-      PathItem{nth(ItemId::blue_block, kCut), std::move(outline), true, color, std::nullopt});
+  items.emplace_back(PathItem{nth(ItemId::blue_block, kCut), std::move(outline), true, color});
 }
 
 /// "×100" and "×10⁷"; of a window's zoom two digits, as "×3.5·10⁷".

@@ -1,8 +1,7 @@
-#include "draw/overlays/loupe_place.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "draw/overlays/loupe.hpp"
 #include "draw/stage/stage.hpp"
 
 namespace piblocks {

@@ -48,11 +48,11 @@ class MarginWords {
   /// From the longest to the shortest.
   std::vector<Formula> titles() const {
     if (numbers_.is_wrong()) {
-      return {set_.text("Could a digit be wrong? Here the last one is"),
-              set_.text("The last digit is wrong")};
+      return set_.texts(
+          {"Could a digit be wrong? Here the last one is", "The last digit is wrong"});
     }
     if (nines_ == 0) {
-      return {set_.text("Could a digit be wrong? Not here"), set_.text("No digit is wrong")};
+      return set_.texts({"Could a digit be wrong? Not here", "No digit is wrong"});
     }
     return {set_.text("Could a digit be wrong? Only if " + largest_digits() + " followed"),
             set_.text("Only " + largest_digits() + " could mislead it")};

@@ -23,14 +23,6 @@ constexpr double kSlack_px = 0.5;
 
 }  // namespace
 
-std::vector<Point> Circle::arc(double from, double to) const {
-  constexpr double kStep = 0.05;  // radians
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kStep)));
-  std::vector<Point> points;
-  for (int i = 0; i <= steps; ++i) points.push_back(at(from + (to - from) * i / steps));
-  return points;
-}
-
 PairState blocks_state(const State& state, const TwoBlocks& blocks) {
   const auto motion = [&](std::size_t body) {
     const auto& [position, velocity] = state.bodies[body];
@@ -226,8 +218,7 @@ RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, const Poin
   return {
       diagram.moving(n),
       {std::round(present.x - width / 2), top, width, std::max(0.0, std::round(bottom()) - top)},
-      diagram.palette().accent,
-      std::nullopt};
+      diagram.palette().accent};
 }
 
 }  // namespace piblocks

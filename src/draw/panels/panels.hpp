@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/rounded.hpp"
 #include "draw/layout.hpp"
 #include "scene/schedule.hpp"
 
@@ -55,19 +54,6 @@ PairState blocks_state(const State& state, const TwoBlocks& blocks);
 /// Whether red comes, at least three collisions happen, and red goes while the scene is shown.
 bool shows_a_turn(const DrawingContext& context);
 
-struct Circle {
-  Point centre;
-  double radius = 0;
-
-  /// @param angle  counter-clockwise, from the right
-  Point at(double angle) const {
-    const auto [sine, cosine] = rounded::sin_cos(angle);
-    return {centre.x + radius * cosine, centre.y - radius * sine};
-  }
-  /// Points whose connecting lines are within 0.03 % of the radius.
-  std::vector<Point> arc(double from, double to) const;
-};
-
 // Of axes with figures below them, in ems.
 inline constexpr double kBelowAxis_em = 1.7;
 inline constexpr double kBetweenTicks_em = 4;
@@ -102,7 +88,7 @@ class Diagram {
   // Add something that stays. Widths and dashes are in widths of the grid's lines.
   void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0) {
     const Stroke stroke{color, width * sizes_.grid_line, dash * sizes_.grid_line};
-    items_.emplace_back(PathItem{next_id(), std::move(points), false, std::nullopt, stroke});
+    items_.emplace_back(line_item(next_id(), std::move(points), stroke));
   }
   void shape(std::vector<Point> outline, const std::optional<Color>& fill,
              const std::optional<Color>& line = std::nullopt) {
@@ -129,8 +115,7 @@ class Diagram {
   ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }
   PathItem moving_line(std::size_t n, std::vector<Point> points, const Color& color,
                        double width = 1) const {
-    return {moving(n), std::move(points), false, std::nullopt,
-            Stroke{color, width * sizes_.grid_line}};
+    return line_item(moving(n), std::move(points), {color, width * sizes_.grid_line});
   }
   PathItem moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
                         const std::optional<Color>& line = std::nullopt) const {
@@ -139,17 +124,17 @@ class Diagram {
   /// More that stays, above the first `n` of the things that move.
   /// @throws UsageError as finish()
   PlateItem plate(std::size_t n, std::vector<DrawItem> items) const;
+  DiscItem dot(std::size_t n, const Point& at, const Color& color, double radius_px) const {
+    return {moving(n), at, radius_px, color, Stroke{palette_.background, sizes_.grid_line}};
+  }
   /// Marks the present.
   DiscItem dot(std::size_t n, const Point& at, const Color& color) const {
-    return {moving(n), at, kDotRadius * sizes_.grid_line, color,
-            Stroke{palette_.background, sizes_.grid_line}};
+    return dot(n, at, color, kDotRadius * sizes_.grid_line);
   }
 
   /// The same, larger, where it is the only one.
   DiscItem present_dot(std::size_t n, const Point& at) const {
-    DiscItem item = dot(n, at, palette_.accent);
-    item.radius = style::kPresentDot * sizes_.short_side;
-    return item;
+    return dot(n, at, palette_.accent, style::kPresentDot * sizes_.short_side);
   }
 
   /// All that stays as one item; nothing can be added to it any more.
@@ -163,7 +148,7 @@ class Diagram {
 
   PathItem shape_item(ItemId id, std::vector<Point> outline, const std::optional<Color>& fill,
                       const std::optional<Color>& line) const {
-    PathItem item{id, std::move(outline), true, fill, std::nullopt};
+    PathItem item{id, std::move(outline), true, fill};
     if (line) item.stroke = Stroke{*line, sizes_.grid_line};
     return item;
   }

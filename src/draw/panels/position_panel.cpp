@@ -38,12 +38,10 @@ constexpr std::array kContactPlaces{0.78, 0.7, 0.86, 0.62, 0.54};
 std::vector<Formula> titles_of_positions(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
   if (!shows_a_turn(context)) {
-    return {set.text("Both distances in their wedge"), set.text("Both distances"),
-            set.text("Positions")};
+    return set.texts({"Both distances in their wedge", "Both distances", "Positions"});
   }
-  return {set.text("The distances zigzag into the corner and out"),
-          set.text("A zigzag into the corner and out"), set.text("A zigzag in a wedge"),
-          set.text("Positions")};
+  return set.texts({"The distances zigzag into the corner and out",
+                    "A zigzag into the corner and out", "A zigzag in a wedge", "Positions"});
 }
 
 /// The path of both gaps runs back and forth between two lines: on one blue meets the wall, on the

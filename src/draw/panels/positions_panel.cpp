@@ -14,7 +14,9 @@ constexpr double kCornersPerColumn = 4;
 class PositionsPanel {
  public:
   PositionsPanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(context, place, titles(context)),
+      : diagram_(context, place,
+                 context.setter().texts({"Where each block is: they collide where the bands meet",
+                                         "Each block's place against time", "Positions"})),
         axis_(context, diagram_, 0),
         low_(to_double(context.scene.view.x.low)),
         high_(to_double(context.scene.view.x.high)) {
@@ -52,12 +54,6 @@ class PositionsPanel {
   }
 
  private:
-  static std::vector<Formula> titles(const DrawingContext& context) {
-    const FormulaSetter set = context.setter();
-    return {set.text("Where each block is: they collide where the bands meet"),
-            set.text("Each block's place against time"), set.text("Positions")};
-  }
-
   double y_of(double position) const {
     const double share = std::clamp((position - low_) / (high_ - low_), 0.0, 1.0);
     return axis_.bottom() - share * axis_.plot().height;

@@ -128,9 +128,9 @@ std::string capitalised(std::string name) {
 std::vector<Formula> titles_of_time(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
   const auto& [red, blue] = std::pair(context.palette.red, context.palette.blue);
-  const Formula red_name = set.text(capitalised(red.full_name)).colored(red.label);
-  const Formula blue_name = set.text(blue.full_name).colored(blue.label);
-  if (!shows_a_turn(context)) return {set.text("Distances from the wall"), set.text("Distances")};
+  const Formula red_name = set.text(capitalised(red.full_name())).colored(red.label);
+  const Formula blue_name = set.text(blue.full_name()).colored(blue.label);
+  if (!shows_a_turn(context)) return set.texts({"Distances from the wall", "Distances"});
   return {red_name + set.text(" turns around; ") + blue_name + set.text(" bounces between"),
           set.text(capitalised(red.name)).colored(red.label) + set.text(" turns; ") +
               set.text(blue.name).colored(blue.label) + set.text(" bounces"),

@@ -8,7 +8,6 @@
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/unfolded_line.hpp"
-#include "draw/panels/unfolded_text.hpp"
 
 namespace piblocks {
 namespace {
@@ -103,12 +102,8 @@ class UnfoldedPanel {
       items.emplace_back(dots_[k]);
     }
     if (x < least_x_ || x > most_x_) return;
-    const Palette& palette = diagram_.palette();
-    items.emplace_back(DiscItem{diagram_.moving(kPresent),
-                                {x, level()},
-                                kPresentRadius * grid_px_,
-                                palette.accent,
-                                Stroke{palette.background, grid_px_}});
+    items.emplace_back(
+        diagram_.dot(kPresent, {x, level()}, diagram_.palette().accent, kPresentRadius * grid_px_));
   }
 
   /// Without the notes below it.
@@ -232,12 +227,9 @@ class UnfoldedPanel {
       const double radius =
           std::clamp(kDotShare * mirror->apart_px, kBandRadius * grid_px_, largest);
       const bool is_wall = mirror->kind == CollisionKind::wall;
-      DiscItem dot{diagram_.moving(kDots + dots_.size()),
-                   {mirror->x, map_.line_y()},
-                   radius,
-                   is_wall ? palette.blue.line : palette.red.line,
-                   std::nullopt};
-      if (radius == largest) dot.stroke = Stroke{palette.background, grid_px_};
+      DiscItem dot = diagram_.dot(kDots + dots_.size(), {mirror->x, map_.line_y()},
+                                  is_wall ? palette.blue.line : palette.red.line, radius);
+      if (radius < largest) dot.stroke.reset();
       dots_.push_back(dot);
     }
   }
@@ -288,8 +280,7 @@ class UnfoldedPanel {
     const double to = std::round(256 * std::clamp(x, map_.left(), map_.right())) / 256;
     const double width = 1.2 * diagram_.sizes().data_line;
     const Rect bounds{std::min(from, to), level() - width / 2, std::abs(to - from), width};
-    items.emplace_back(
-        RectangleItem{diagram_.moving(kLine), bounds, diagram_.palette().accent, std::nullopt});
+    items.emplace_back(RectangleItem{diagram_.moving(kLine), bounds, diagram_.palette().accent});
   }
 
   Diagram diagram_;

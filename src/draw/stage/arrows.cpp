@@ -61,10 +61,9 @@ void add_arrow(const Arrow& arrow, std::vector<DrawItem>& items) {
   const Point along = (tip - tail) / length_px;
   const Point neck = tip - head * along;
   const Point aside = (along.x < 0 ? half_head : -half_head) * turned_right(along);
+  items.emplace_back(line_item(id, {tail, neck}, {color, line_px}));
   items.emplace_back(
-      PathItem{id, std::vector<Point>{tail, neck}, false, std::nullopt, Stroke{color, line_px}});
-  items.emplace_back(PathItem{nth(id, 1), std::vector<Point>{tip, neck + aside, neck - aside}, true,
-                              color, std::nullopt});
+      PathItem{nth(id, 1), std::vector<Point>{tip, neck + aside, neck - aside}, true, color});
 }
 
 struct Figure {

@@ -2,10 +2,14 @@
 // In: a drawing context with its layout. Out: drawables, and what the loupe is made of too.
 #pragma once
 
+#include <piblocks/image.hpp>
+
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "draw/layout.hpp"
@@ -61,6 +65,19 @@ Drawable bodies(const DrawingContext& context);
 /// The article's picture of a line: blocks and counter.
 /// @param lit_digits  light up when the counter shows them in their places; may be empty
 Drawable article_blocks(const DrawingContext& context, std::string lit_digits);
+
+/// A body at the picture's instant. @see MovingShape
+struct PlacedBody {
+  ItemId id;
+  std::size_t body = 0;  ///< its number
+  std::variant<ExposedBlock, DiscItem> still;
+};
+
+/// Adds the bodies that stay, and one item of all others.
+/// @param bodies     in the order in which they are painted
+/// @param exposures  none if the picture is that of its instant
+void add_exposed(std::span<const PlacedBody> bodies, const Layout& map, const PixelRect& frame,
+                 std::span<const WeightedExposure> exposures, std::vector<DrawItem>& items);
 
 /// Adds all blocks as they are at the frame's instant, or exposed.
 void add_blocks(const FrameState& shown, const Layout& layout,

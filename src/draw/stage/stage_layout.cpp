@@ -8,7 +8,7 @@
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
-#include "draw/overlays/loupe_gap.hpp"
+#include "draw/overlays/loupe.hpp"
 #include "draw/stage/stage.hpp"
 #include "scene/schedule.hpp"
 

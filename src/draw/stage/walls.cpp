@@ -8,7 +8,6 @@
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels/panels.hpp"
 #include "draw/stage/stage.hpp"
 
 namespace piblocks {
@@ -96,8 +95,8 @@ void add_angle(const WallMap& first, const WallMap& second, const DrawingContext
   const double turn = turn_of(-1 * first.along);
   const double angle = std::remainder(turn_of(second.along) - turn, 2 * std::numbers::pi);
   const Circle circle{second.from, kAngleArc * sizes.short_side};
-  items.emplace_back(PathItem{nth(ItemId::wall, items.size()), circle.arc(turn, turn + angle),
-                              false, std::nullopt, Stroke{context.palette.text, sizes.grid_line}});
+  items.emplace_back(line_item(nth(ItemId::wall, items.size()), circle.arc(turn, turn + angle),
+                               {context.palette.text, sizes.grid_line}));
   const std::string text = fmt::format("{:.3g}°", std::abs(angle) * 180 / std::numbers::pi);
   const double width = context.font.width_em(text) * sizes.text;
   const Point end_of_first = first(first.length - circle.radius, 0);
@@ -108,12 +107,9 @@ void add_angle(const WallMap& first, const WallMap& second, const DrawingContext
                         std::abs(upper.along.y) * width / 2 +
                         std::abs(upper.along.x) * sizes.text / 2;
   const Point centre = upper(is_first ? first.length - circle.radius : circle.radius, behind);
-  items.emplace_back(TextItem{nth(ItemId::wall, items.size()),
-                              {centre.x - width / 2, centre.y + kHalfFigure_em * sizes.text},
-                              text,
-                              sizes.text,
-                              context.palette.text,
-                              context.font.face()});
+  const Point origin{centre.x - width / 2, centre.y + kHalfFigure_em * sizes.text};
+  items.emplace_back(TextItem{nth(ItemId::wall, items.size()), origin, text, sizes.text,
+                              context.palette.text, context.font.face()});
 }
 
 /// Nothing if the view does not show it. @param walls  beside it, which cut it off
@@ -306,20 +302,17 @@ std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const Fac
     const double begin = std::max(nearest, width - s);
     const double end = std::min(width, width + at.length - s);
     if (end <= begin) continue;
-    items.emplace_back(
-        PathItem{nth(ItemId::wall, items.size()),
-                 std::vector<Point>{end_at(s - width + begin, begin), end_at(s - width + end, end)},
-                 false, std::nullopt, Stroke{style.strokes, style.stroke_px}});
+    items.emplace_back(line_item(nth(ItemId::wall, items.size()),
+                                 {end_at(s - width + begin, begin), end_at(s - width + end, end)},
+                                 {style.strokes, style.stroke_px}));
   }
   const ItemId id = nth(ItemId::wall, items.size());
   const double last = at.length + beyond_px;
   if (at.along.x == 0 || at.along.y == 0) {
-    items.emplace_back(
-        RectangleItem{id, at.bounds(-beyond_px, last, 0, line), style.line, std::nullopt});
+    items.emplace_back(RectangleItem{id, at.bounds(-beyond_px, last, 0, line), style.line});
   } else {
-    items.emplace_back(PathItem{id,
-                                std::vector<Point>{at(-beyond_px, line / 2), at(last, line / 2)},
-                                false, std::nullopt, Stroke{style.line, line}});
+    items.emplace_back(
+        line_item(id, {at(-beyond_px, line / 2), at(last, line / 2)}, {style.line, line}));
   }
   return items;
 }
