@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,7 +20,6 @@
 #include "draw/panels/panels.hpp"
 #include "draw/stage/hits.hpp"
 #include "draw/stage/stage.hpp"
-#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -16,7 +16,6 @@
 #include <variant>
 #include <vector>
 
-#include "draw/geometry.hpp"
 #include "draw/item_parts.hpp"
 
 namespace piblocks {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "draw/layout.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {

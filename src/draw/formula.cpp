@@ -181,6 +181,14 @@ Formula FormulaSetter::italic(std::string_view utf8) const {
   return line;
 }
 
+Formula FormulaSetter::with_script(const Formula& base, Formula script, double y_em) {
+  script.shift(0, y_em, kScriptScale);
+  script.bottom_em_ = y_em;
+  Formula line = base + script;
+  line.width_em_ += kAfterScript;
+  return line;
+}
+
 // NOLINTBEGIN(readability-convert-member-functions-to-static): set.root() reads like set.text()
 Formula FormulaSetter::root(const Formula& of) const {
   Formula content = of;
@@ -196,20 +204,11 @@ Formula FormulaSetter::root(const Formula& of) const {
 }
 
 Formula FormulaSetter::raised(const Formula& base, const Formula& exponent) const {
-  Formula script = exponent;
-  script.shift(0, kRaise, kScriptScale);
-  Formula line = base + script;
-  line.width_em_ += kAfterScript;
-  return line;
+  return with_script(base, exponent, kRaise);
 }
 
 Formula FormulaSetter::lowered(const Formula& base, const Formula& index) const {
-  Formula script = index;
-  script.shift(0, -kLower, kScriptScale);
-  script.bottom_em_ = -kLower;
-  Formula line = base + script;
-  line.width_em_ += kAfterScript;
-  return line;
+  return with_script(base, index, -kLower);
 }
 // NOLINTEND(readability-convert-member-functions-to-static)
 

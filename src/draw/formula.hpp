@@ -80,6 +80,7 @@ class FormulaSetter {
 
  private:
   Formula set(Face face, std::string_view utf8) const;
+  static Formula with_script(const Formula& base, Formula script, double y_em);
 
   const Fonts& fonts_;
   Face text_face_;

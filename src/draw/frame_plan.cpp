@@ -12,7 +12,6 @@
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/overlays/loupe.hpp"
-#include "draw/panel_grid.hpp"
 #include "draw/stage/stage.hpp"
 #include "draw/text_lines.hpp"
 

@@ -1,5 +1,3 @@
-#include <piblocks/image.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "draw/extent.hpp"
 #include "draw/painter.hpp"
 
 namespace piblocks {

@@ -1,7 +1,5 @@
 #include "draw/painter.hpp"
 
-#include <piblocks/error.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -141,7 +139,7 @@ void Painter::paint(cairo_t& cr, const DiscItem& item) {
                       item.fill,
                       item.stroke};
   const int side_px = 2 * reach_px + 1;
-  auto kept = std::ranges::find(discs_, disc, &KeptDisc::disc);
+  auto kept = std::ranges::find(discs_, disc, &Kept<DiscItem>::source);
   if (kept == discs_.end()) {
     constexpr std::size_t kMostKept = 256;
     if (discs_.size() == kMostKept) discs_.clear();

@@ -5,6 +5,7 @@
 #include <cairo.h>
 #include <piblocks/image.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -93,6 +94,15 @@ class SurfacePixels {
   std::ptrdiff_t stride_bytes_;
 };
 
+/// Red, green and blue.
+using Rgb = std::array<double, 3>;
+
+/// Pixels [begin, end) of a row.
+struct PixelRun {
+  int begin = 0;
+  int end = 0;
+};
+
 /// Keeps fonts, pixels of plates and images, and a table of light, once they were needed.
 class Painter {
  public:
@@ -147,11 +157,7 @@ class Painter {
   // Those that were painted last are at the end.
   std::vector<KeptPlate> plates_;
   std::vector<KeptImage> images_;
-  struct KeptDisc {
-    DiscItem disc;  ///< in the surface, without an id
-    CairoSurfacePtr pixels;
-  };
-  std::vector<KeptDisc> discs_;
+  std::vector<Kept<DiscItem>> discs_;  ///< in their surfaces, without ids
 };
 
 }  // namespace piblocks

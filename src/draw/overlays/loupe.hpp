@@ -46,9 +46,6 @@ struct LoupeGap {
 /// @throws UsageError if the scene names a window in which there is nothing to show.
 std::optional<LoupeGap> loupe_gap(const DrawingContext& context);
 
-/// Whether the scene has a loupe that is as wide as most of the frame.
-bool has_stage_loupe(const Show& show);
-
 /// Whether the loupe would be seen if it had room.
 bool may_show_loupe(const LayoutContext& context, const AxisPlace& axis);
 
@@ -59,39 +56,11 @@ struct LoupePlace {
   double lines_px = 0;  ///< where lines to an inset above the blocks begin
 };
 
-/// What the inset has to have room for.
-struct LoupeTexts {
-  double zoom_px = 0;  ///< width of the longest zoom
-  bool has_slow_motion = false;
-};
-
-/// Width of the inset, in pixels.
-double loupe_width_px(const View& view, const Sizes& sizes, bool is_stage);
-
-/// Room for the inset beside two blocks, on the side that they leave to; or above all blocks.
-/// Nothing if there is none.
-std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
-                                           const LoupeGap& gap, const LoupeTexts& texts);
-
-/// Proportions of the inset.
-namespace loupe_style {
-
-// In fractions of the frame's shorter side.
-inline constexpr double kBelowFloor = 0.025;
-inline constexpr double kAboveBlocks = 0.015;
-inline constexpr double kInside = 0.012;   ///< between the inset's edges and what is in it
-inline constexpr double kOutside = 0.025;  ///< between the inset and what is around it
-
-inline constexpr double kRow_em = 1.35;  ///< from one row of text to the next
-/// From this exponent on a zoom is written as a power of ten.
-inline constexpr long kLeastPower = 4;
-/// The loupe is seen in full below this share of the gap at which it begins to be seen.
-inline constexpr double kFullyShown = 0.5;
-
-}  // namespace loupe_style
-
 class LoupeInset {
  public:
+  /// Between the inset's edges and what is in it, in fractions of the frame's shorter side.
+  static constexpr double kInside = 0.012;
+
   /// Nothing if the scene has no loupe, or leaves it to the program and it would have no room or
   /// nothing to show.
   /// @throws UsageError as loupe_gap(); if the scene names a window, and the loupe has no room.
@@ -110,6 +79,8 @@ class LoupeInset {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const;
 
  private:
+  /// From this exponent on a zoom is written as a power of ten.
+  static constexpr long kLeastPower = 4;
   // Ids among those of the wall, and of both blocks.
   static constexpr std::size_t kFirstLine = 100;
   static constexpr std::size_t kAnchor = 1;
@@ -125,9 +96,8 @@ class LoupeInset {
   double zoom_at(double level, const FrameState& shown) const;
   /// All that does not depend on the place.
   LoupeInset(const DrawingContext& context, const LoupeGap& gap);
-  LoupeTexts texts() const { return {widest_zoom_px_, shows_slow_motion()}; }
   void place(const DrawingContext& context, const LoupePlace& found);
-  void place_scenery(const DrawingContext& context);
+  void place_scenery();
   /// Mirrored left to right if the anchor is on the right.
   Rect mirrored(const Rect& r) const;
   Point mirrored(const Point& p) const;

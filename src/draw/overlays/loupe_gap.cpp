@@ -8,7 +8,6 @@
 
 #include "draw/overlays/loupe.hpp"
 #include "draw/stage/stage.hpp"
-#include "scene/pacing.hpp"
 
 namespace piblocks {
 namespace {
@@ -209,8 +208,6 @@ std::optional<LoupeGap> loupe_gap(const DrawingContext& context) {
   if (!loupe) return std::nullopt;
   return context.pair() != nullptr ? gap_of_pair(context, *loupe) : gap_of_bodies(context, *loupe);
 }
-
-bool has_stage_loupe(const Show& show) { return show.loupe && show.loupe->is_stage; }
 
 bool may_show_loupe(const LayoutContext& context, const AxisPlace& axis) {
   if (!loupe_of(context)) return false;

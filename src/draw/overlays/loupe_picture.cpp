@@ -18,6 +18,8 @@ constexpr double kTearTooth = 0.014;  ///< height and depth
 constexpr double kTearAt = 0.25;
 /// Where the lines to the inset begin, in parts of the outer block's width from the gap.
 constexpr double kLinesInOuter = 0.6;
+/// The loupe is seen in full below this share of the gap at which it begins to be seen.
+constexpr double kFullyShown = 0.5;
 /// The share of its window in which the loupe fades in, and out.
 constexpr double kWindowFade = 0.1;
 /// At this many hits a frame or more, the block between may be anywhere in the gap, and the loupe
@@ -34,7 +36,7 @@ double LoupeInset::gap_px(const FrameState& shown) const {
 
 double LoupeInset::opacity(const FrameState& shown) const {
   const double from_px = style::kMaxLoupeGap * sizes_.short_side;
-  double opacity = (from_px - gap_px(shown)) / (from_px * (1 - loupe_style::kFullyShown));
+  double opacity = (from_px - gap_px(shown)) / (from_px * (1 - kFullyShown));
   if (gap_.window) {
     const Rational way = (shown.time - gap_.window->from) / (gap_.window->to - gap_.window->from);
     const double from_end = to_double(std::min<Rational>(way, 1 - way));
@@ -101,7 +103,7 @@ DrawList LoupeInset::picture(const FrameState& shown, double px_per_unit) const 
   add_blocks(shown, px_per_unit, list.items);
   std::string slow = slow_text_ ? slow_text_(shown) : std::string();
   if (!slow.empty()) {
-    const Point at{loupe_style::kInside * sizes_.short_side, slow_baseline_px_};
+    const Point at{kInside * sizes_.short_side, slow_baseline_px_};
     list.items.emplace_back(
         TextItem{ItemId::label, at, std::move(slow), sizes_.text, palette_.accent, face_});
   }
@@ -225,7 +227,7 @@ void LoupeInset::add_zoom(double zoomed, const Color& color, std::vector<DrawIte
   }
   const double size_px = sizes_.mass;
   const double digits = double(tens) / 10;
-  const bool is_plain = exponent < loupe_style::kLeastPower;
+  const bool is_plain = exponent < kLeastPower;
   std::string text = "×";
   if (is_plain) {
     text += fixed_text(digits * zoom_.power(exponent), exponent == 0 ? 1 : 0);
@@ -233,8 +235,7 @@ void LoupeInset::add_zoom(double zoomed, const Color& color, std::vector<DrawIte
     text += fixed_text(digits, 1) + "·";
   }
   const Formula* const power =
-      is_plain ? nullptr
-               : &powers_.at(static_cast<std::size_t>(exponent - loupe_style::kLeastPower));
+      is_plain ? nullptr : &powers_.at(static_cast<std::size_t>(exponent - kLeastPower));
   const double width_em = widths_.width_em(text) + (power != nullptr ? power->width_em() : 0);
   const Point left{zoom_end_.x - (is_zoom_end_left_ ? 0 : width_em * size_px), zoom_end_.y};
   const double text_px = widths_.width_em(text) * size_px;

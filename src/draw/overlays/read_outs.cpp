@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/rounded.hpp"
-#include "core/text.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "scene/schedule.hpp"

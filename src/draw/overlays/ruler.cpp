@@ -2,7 +2,6 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "draw/number_text.hpp"

@@ -209,8 +209,6 @@ class ConservationPanel {
                        "the diagram 'conservation' has no room for bars beside the bodies' names; "
                        "use shorter labels, or make the frame wider");
     }
-    // The bar of energy ends where the figures do.
-    energy_right_ = std::round(inside().right());
   }
 
   double baseline(double top, double height) const {
@@ -229,10 +227,11 @@ class ConservationPanel {
     return {std::min(zero, end), std::round(row_top(row) + (row_px_ - height) / 2),
             std::abs(end - zero), height};
   }
+  /// It ends where the figures do.
   Rect energy_bar() const {
     const double height = std::round(kEnergyBarHeight * energy_px_);
     return {left_, std::round(diagram_.inside().y + (energy_px_ - height) / 2),
-            energy_right_ - left_, height};
+            std::round(inside().right()) - left_, height};
   }
 
   /// All that stays: names, the bar of energy in the first block's colour, which others cover,
@@ -326,7 +325,6 @@ class ConservationPanel {
   // Of the bars.
   double left_ = 0;
   double right_ = 0;
-  double energy_right_ = 0;
 };
 
 }  // namespace

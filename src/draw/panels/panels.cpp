@@ -87,17 +87,19 @@ std::vector<DrawItem> Diagram::title(std::size_t n, const std::vector<Formula>& 
   return items;
 }
 
-PhasedTitle::PhasedTitle(const Diagram& diagram, const Sentences& sentences, Counts counts)
+PhasedTitle::PhasedTitle(const Diagram& diagram, const Sentences& sentences, Integer before,
+                         Integer last)
     : before_(diagram.title(kFirst, sentences.before, diagram.palette().text, diagram.text_px())),
       during_(diagram.title(kFirst, sentences.during, diagram.palette().text, diagram.text_px())),
       after_(
           diagram.title(kFirst, sentences.after, diagram.palette().accent, diagram.sizes().title)),
-      counts_(std::move(counts)) {}
+      first_count_(std::move(before)),
+      last_count_(std::move(last)) {}
 
 void PhasedTitle::add(const Integer& count, std::vector<DrawItem>& items) const {
-  const std::vector<DrawItem>& title = count >= counts_.last    ? after_
-                                       : count > counts_.before ? during_
-                                                                : before_;
+  const std::vector<DrawItem>& title = count >= last_count_   ? after_
+                                       : count > first_count_ ? during_
+                                                              : before_;
   items.insert(items.end(), title.begin(), title.end());
 }
 

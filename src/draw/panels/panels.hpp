@@ -2,7 +2,6 @@
 // In: a drawing context and the place of the panel. Out: a drawable.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,15 +31,12 @@ Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place);
 /// How near the count comes to a wrong digit of pi.
 /// @throws UsageError if the scene does not count pi, or the panel is too small.
 Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place);
-/// Both gaps against time; where there are other bodies, as positions_panel().
+/// Both gaps against time; of other bodies, where each block of a line is.
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions so far against time.
 Drawable count_panel(const DrawingContext& context, const PanelPlace& place);
 /// Bars of energy and momentum.
 Drawable conservation_panel(const DrawingContext& context, const PanelPlace& place);
-
-/// Where each block of a line is, against time.
-Drawable positions_panel(const DrawingContext& context, const PanelPlace& place);
 /// How many discs or blocks have which speed, and the distribution that Maxwell found.
 /// @throws UsageError if there are too few.
 Drawable speeds_panel(const DrawingContext& context, const PanelPlace& place);
@@ -181,12 +177,8 @@ class PhasedTitle {
     std::vector<Formula> during;
     std::vector<Formula> after = {};  ///< the last; in the accent, large if it has room
   };
-  struct Counts {
-    Integer before;  ///< collisions before the scene begins
-    Integer last;
-  };
-
-  PhasedTitle(const Diagram& diagram, const Sentences& sentences, Counts counts);
+  /// @param before  collisions before the scene begins @param last  the last collision
+  PhasedTitle(const Diagram& diagram, const Sentences& sentences, Integer before, Integer last);
 
   void add(const Integer& count, std::vector<DrawItem>& items) const;
 
@@ -196,7 +188,8 @@ class PhasedTitle {
   std::vector<DrawItem> before_;
   std::vector<DrawItem> during_;
   std::vector<DrawItem> after_;
-  Counts counts_;
+  Integer first_count_;
+  Integer last_count_;
 };
 
 class TimeAxis {

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <numbers>
 
-#include "draw/number_text.hpp"
 #include "draw/panels/corner_path.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
@@ -55,8 +54,7 @@ class PositionPanel {
               std::max(1, static_cast<int>(diagram_.inside().width))),
         most_(path_.greatest_y2() > 0 ? path_.greatest_y2() : 1),
         least_share_(path_.least_y2() > 0 ? path_.least_y2() / most_ : kLeastShare),
-        zoom_(least_share_) {
-    zoom_.make_texts(context.setter());
+        zoom_(least_share_, context.setter()) {
     const GapWedge wedge(context.two_blocks().blocks());
     is_true_ = std::min(wedge.theta, std::numbers::pi / 2 - wedge.theta) >= kLeastAngle;
     place_wedge(is_true_ ? wedge.sine / wedge.cosine : 0);

@@ -84,8 +84,8 @@ struct VelocityPlace {
 /// middle of a wide panel.
 VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set);
 
-/// The greatest ratio of the axes that is drawn. A longer ellipse is drawn with this ratio.
-inline constexpr long kMostLongEllipse = 12;
+/// The mass ratio for which the ellipse is drawn: red's mass to blue's, within limits.
+Rational drawn_mass_ratio(const TwoBlocks& system);
 
 /// Labels: the names of the axes, "no more hits here", the marked arc's name, and the ellipse's
 /// explanation. Labels without room are left out.

@@ -59,9 +59,7 @@ struct VelocityMap {
 
 /// Log of the drawn ellipse's axes, blue's over red's: the root of the mass ratio, within limits.
 double log_axes_of(const TwoBlocks& system) {
-  const Rational ratio = system.red.mass / system.blue.mass;
-  const Rational most = kMostLongEllipse * kMostLongEllipse;
-  return rounded::log(to_double(std::clamp<Rational>(ratio, 1 / most, most))) / 2;
+  return rounded::log(to_double(drawn_mass_ratio(system))) / 2;
 }
 
 /// Of a label's color. One part fades out before the other fades in.
@@ -93,8 +91,8 @@ class VelocityFigure {
         log_axes_(log_axes_of(context.two_blocks().blocks())),
         place_(place_velocities(diagram, context.setter())) {
     const double apart_px = 2 * points_.wedge_angle() * place_.circle.radius;
-    has_chords_ = points_.moves() && apart_px >= kChordsApart * context.sizes.data_line;
-    if (has_chords_) angles_ = points_.all_angles();
+    const bool has_chords = points_.moves() && apart_px >= kChordsApart * context.sizes.data_line;
+    if (has_chords) angles_ = points_.all_angles();
     dot_px_ = std::min(style::kHitDot * context.sizes.short_side, kDotsApart * apart_px);
     written_ = label_velocities(context, place_, points_, angles_);
   }
@@ -109,7 +107,7 @@ class VelocityFigure {
   }
 
   /// Whether chords are so far apart that each is drawn.
-  bool has_chords() const noexcept { return has_chords_; }
+  bool has_chords() const noexcept { return !angles_.empty(); }
   /// As all_angles(); none unless has_chords().
   const std::vector<double>& angles() const noexcept { return angles_; }
   double dot_px() const noexcept { return dot_px_; }
@@ -186,7 +184,6 @@ class VelocityFigure {
   double grid_px_;
   double log_axes_;  ///< of the ellipse's drawn semi-axes, blue over red
   VelocityPlace place_;
-  bool has_chords_ = false;
   double dot_px_ = 0;
   std::vector<double> angles_;
   VelocityLabels written_;
@@ -225,15 +222,12 @@ class VelocityPanel {
         blocks_(context.two_blocks().blocks()),
         points_(context.scene, context.two_blocks()),
         figure_(context, diagram_, points_),
-        title_(diagram_, sentences(context, figure_.has_chords()),
-               {points_.before(), points_.last()}),
+        title_(diagram_, sentences(context, figure_.has_chords()), points_.before(),
+               points_.last()),
         is_ellipse_first_(place.panel == Panel::ellipse) {
     diagram_.finish();
-    circle_ = figure_items(1);
-    circle_.static_items = plate_of(circle_.static_items);
-    if (!is_ellipse_first_) return;
-    ellipse_ = figure_items(0);
-    ellipse_.static_items = plate_of(ellipse_.static_items);
+    circle_ = with_plate(figure_items(1));
+    if (is_ellipse_first_) ellipse_ = with_plate(figure_items(0));
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -277,10 +271,11 @@ class VelocityPanel {
   }
 
   /// Title and figure as one item.
-  std::vector<DrawItem> plate_of(const std::vector<DrawItem>& static_items) const {
+  FigureItems with_plate(FigureItems all) const {
     std::vector<DrawItem> parts = diagram_.item().plate->items;
-    parts.insert(parts.end(), static_items.begin() + 1, static_items.end());
-    return {diagram_.plate(0, std::move(parts))};
+    parts.insert(parts.end(), all.static_items.begin() + 1, all.static_items.end());
+    all.static_items = {diagram_.plate(0, std::move(parts))};
+    return all;
   }
 
   PathItem chord(std::size_t n, const VelocityMap& map, double from, double to,

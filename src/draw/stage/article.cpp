@@ -1,10 +1,5 @@
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
-#include <piblocks/two_blocks.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
 
