@@ -89,8 +89,6 @@ class LoupeInset {
 
   /// In the frame, not enlarged.
   double gap_px(const FrameState& shown) const;
-  /// How many times the gap of a state could be enlarged.
-  double most_zoom_of(const FrameState& state) const;
   /// The place of the zoom among zooms_, or between two of them.
   double level(const FrameState& shown) const;
   double zoom_at(double level, const FrameState& shown) const;
@@ -112,7 +110,6 @@ class LoupeInset {
     Rect outer;
   };
   SeenBlocks blocks_of(const FrameState& shown, double px_per_unit) const;
-  void add_between(const Rect& block, double seen, std::vector<DrawItem>& items) const;
   /// Where surfaces touch. @param left_px, right_px  heights, as seen from the anchor
   Contact contact_at(double x_px, double left_px, double right_px, const Color& color) const;
   void add_tear(const Rect& block, const Color& color, std::vector<DrawItem>& items) const;

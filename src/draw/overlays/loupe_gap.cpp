@@ -8,6 +8,7 @@
 
 #include "draw/overlays/loupe.hpp"
 #include "draw/stage/stage.hpp"
+#include "scene/pacing.hpp"
 
 namespace piblocks {
 namespace {

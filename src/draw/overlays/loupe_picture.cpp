@@ -45,11 +45,9 @@ double LoupeInset::opacity(const FrameState& shown) const {
   return std::clamp(opacity, 0.0, 1.0);
 }
 
-double LoupeInset::most_zoom_of(const FrameState& state) const { return room_px_ / gap_px(state); }
-
 double LoupeInset::level(const FrameState& shown) const {
   const auto level_of = [&](const FrameState& state) {
-    const auto above = std::ranges::upper_bound(zooms_, most_zoom_of(state));
+    const auto above = std::ranges::upper_bound(zooms_, room_px_ / gap_px(state));
     return static_cast<int>(std::max<std::ptrdiff_t>(1, above - zooms_.begin())) - 1;
   };
   if (!shown.moment) return level_of(shown);
@@ -58,7 +56,7 @@ double LoupeInset::level(const FrameState& shown) const {
 
 /// Below the first level the gap fills the inset, which shows more than no zoom would.
 double LoupeInset::zoom_at(double level, const FrameState& shown) const {
-  if (level < 1) return std::clamp(most_zoom_of(shown), 1.0, zooms_[1]);
+  if (level < 1) return std::clamp(room_px_ / gap_px(shown), 1.0, zooms_[1]);
   const auto below = static_cast<std::size_t>(level);
   if (double(below) == level) return zooms_[below];
   const double ratio = zooms_[below + 1] / zooms_[below];
@@ -170,7 +168,12 @@ void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
                                                    outer_x - face_px_, inner_height_px_}),
                                      faded(between_.fill, swept * kSweepAlpha)});
   }
-  add_between(*blocks.between, 1 - swept * (1 - kFastBlock), items);
+  const double seen = 1 - swept * (1 - kFastBlock);
+  BlockColors colors = between_;
+  colors.fill = faded(colors.fill, seen);
+  colors.edge = faded(colors.edge, seen);
+  add(ItemId::blue_block, *blocks.between, colors);
+  add_tear(*blocks.between, faded(palette_.background, seen), items);
 }
 
 LoupeInset::SeenBlocks LoupeInset::blocks_of(const FrameState& shown, double px_per_unit) const {
@@ -188,14 +191,6 @@ LoupeInset::SeenBlocks LoupeInset::blocks_of(const FrameState& shown, double px_
   }
   blocks.outer = block(outer_x, std::max(0.0, bounds_.width - outer_x) + beyond, outer_height_px_);
   return blocks;
-}
-
-void LoupeInset::add_between(const Rect& block, double seen, std::vector<DrawItem>& items) const {
-  BlockColors colors = between_;
-  colors.fill = faded(colors.fill, seen);
-  colors.edge = faded(colors.edge, seen);
-  add_rectangles(ItemId::blue_block, block_at(block, colors, stage_), items);
-  add_tear(block, faded(palette_.background, seen), items);
 }
 
 /// Near the anchor, for the enlarged block would reach far beyond it.
