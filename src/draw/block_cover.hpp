@@ -3,14 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "draw/geometry.hpp"
 
 namespace piblocks {
 

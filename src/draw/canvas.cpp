@@ -14,9 +14,9 @@
 #include <utility>
 #include <variant>
 
-#include "draw/cairo_handles.hpp"
-#include "draw/changes.hpp"
+#include "draw/cairo_calls.hpp"
 #include "draw/painter.hpp"
+#include "draw/region.hpp"
 
 namespace piblocks {
 namespace {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,13 +15,11 @@
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
-#include "draw/overlays/counter.hpp"
 #include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/stage/hits.hpp"
 #include "draw/stage/stage.hpp"
-#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
@@ -50,6 +47,26 @@ FrameNeeds needs_of(const std::vector<Drawable>& drawables) {
   FrameNeeds needs;
   for (const Drawable& drawable : drawables) needs |= drawable.needs;
   return needs;
+}
+
+/// The logo as large as fits, in the lower right corner of its place.
+/// @throws UsageError if it would be a speck.
+ImageItem place_logo(const Rect& place, std::shared_ptr<const Image> logo) {
+  constexpr double kLeastLogo_px = 1;
+  constexpr double kLeastLogoLength_px = 3;
+  const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
+  const double width = scale * logo->width_px;
+  const double height = scale * logo->height_px;
+  if (std::min(width, height) < kLeastLogo_px || std::max(width, height) < kLeastLogoLength_px) {
+    throw UsageError(
+        "show.logo",
+        fmt::format("a picture of {}x{} would be {:.1f}x{:.1f} pixels here; leave it out, make the "
+                    "frame larger, or use a picture of another shape",
+                    logo->width_px, logo->height_px, width, height));
+  }
+  return {ItemId::logo,
+          {place.right() - width, place.bottom() - height, width, height},
+          std::move(logo)};
 }
 
 /// Places all that a scene shows, and makes its drawables in the order of their ids.

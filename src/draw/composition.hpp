@@ -10,8 +10,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "draw/draw_list.hpp"

@@ -16,7 +16,6 @@
 #include <variant>
 #include <vector>
 
-#include "draw/geometry.hpp"
 #include "draw/item_parts.hpp"
 
 namespace piblocks {
@@ -25,7 +24,7 @@ struct RectangleItem {
   ItemId id = ItemId::wall;
   Rect bounds;
   std::optional<Color> fill;
-  std::optional<Stroke> stroke;
+  std::optional<Stroke> stroke = {};
   /// Radius of the corners; hardly more than the width of the stroke, which is solid then.
   double corner_px = 0;
   bool operator==(const RectangleItem&) const = default;
@@ -86,16 +85,20 @@ struct PathItem {
   Points points;
   bool closed = false;
   std::optional<Color> fill;  ///< of the closed path, by the non-zero rule
-  std::optional<Stroke> stroke;
+  std::optional<Stroke> stroke = {};
   bool operator==(const PathItem&) const = default;
 };
+
+inline PathItem line_item(ItemId id, std::vector<Point> points, const Stroke& stroke) {
+  return {id, std::move(points), false, std::nullopt, stroke};
+}
 
 struct DiscItem {
   ItemId id = ItemId::wall;
   Point centre;
   double radius = 0;
   std::optional<Color> fill;
-  std::optional<Stroke> stroke;
+  std::optional<Stroke> stroke = {};
   bool operator==(const DiscItem&) const = default;
 };
 

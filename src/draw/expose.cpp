@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "draw/layout.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {
@@ -115,19 +115,12 @@ std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
   return table.dwells();
 }
 
-/// Ways of two blocks' left edges, which both pass evenly.
-struct EvenMotion {
-  Travel right;
-  Travel left;
-  double left_width{};
-  double share{};  ///< of the exposure
-};
-
-/// Adds contacts where the blocks are less than a pixel apart.
-void add_contacts(const EvenMotion& motion, std::vector<TouchingBlocks>& contacts) {
+/// Adds contacts where two blocks, which both pass evenly, are less than a pixel apart.
+/// @param right, left  ways of their left edges @param share  of the exposure
+void add_contacts(const Travel& right, const Travel& left, double left_width, double share,
+                  std::vector<TouchingBlocks>& contacts) {
   constexpr double kPerPixel = 32;
   constexpr double kMost = 4096;
-  const auto& [right, left, left_width, share] = motion;
   const Travel gap{right.from - left.from - left_width, right.to - left.to - left_width};
   double begin = 0;
   double end = 1;
@@ -161,10 +154,7 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
   if (item.behind.is_still() && item.front.is_still()) return item;
   for (const WeightedExposure& weighted : exposures) {
     for (const UniformPiece& piece : blocks_of(weighted).pieces) {
-      add_contacts({.right = red_px(piece.red),
-                    .left = blue_px(piece.blue),
-                    .left_width = blue_width,
-                    .share = weighted.share * piece.share},
+      add_contacts(red_px(piece.red), blue_px(piece.blue), blue_width, weighted.share * piece.share,
                    item.contacts);
     }
   }
@@ -178,8 +168,7 @@ void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>&
     const Bar& bar = block.bars[i];
     items.emplace_back(RectangleItem{nth(id, i + 1),
                                      {block.bounds.x, bar.y, block.bounds.width, bar.height},
-                                     block.stroke.color,
-                                     std::nullopt});
+                                     block.stroke.color});
   }
 }
 

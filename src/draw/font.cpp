@@ -11,8 +11,18 @@
 #include <span>
 
 #include "core/text.hpp"
-#include "draw/cairo_handles.hpp"
-#include "draw/embedded_fonts.hpp"
+#include "draw/cairo_calls.hpp"
+
+/// A font that is part of the program. font_data.S takes its file in where binaries are ELF;
+/// elsewhere embed_fonts.cmake writes it down for the C compiler. Both lay this out.
+struct PiblocksEmbeddedFont {
+  const unsigned char* begin;
+  const unsigned char* end;
+};
+
+// In the order of Face.
+// NOLINTNEXTLINE(readability-identifier-naming): no constant, but a symbol of assembler or C
+extern "C" const PiblocksEmbeddedFont piblocks_fonts[];
 
 namespace piblocks {
 namespace {
@@ -45,10 +55,9 @@ FT_Face load_embedded_face(Face which) {
   check_freetype(FT_Init_FreeType(&created), "start FreeType");
   FtLibraryPtr library(created);
   FT_Face face = nullptr;
-  const std::span<const unsigned char> font = embedded_font(which);
-  check_freetype(
-      FT_New_Memory_Face(library.get(), font.data(), static_cast<FT_Long>(font.size()), 0, &face),
-      "load an embedded font");
+  const auto& [begin, end] = piblocks_fonts[static_cast<std::size_t>(which)];
+  check_freetype(FT_New_Memory_Face(library.get(), begin, end - begin, 0, &face),
+                 "load an embedded font");
   static_cast<void>(library.release());  // release_face() finds it again through the face
   return face;
 }

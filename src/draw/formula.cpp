@@ -48,14 +48,12 @@ struct SmallFigure {
   char plain;
   bool is_raised;
 };
-constexpr std::array kSmallFigures{
-    SmallFigure{"⁰", '0', true},  SmallFigure{"¹", '1', true},  SmallFigure{"²", '2', true},
-    SmallFigure{"³", '3', true},  SmallFigure{"⁴", '4', true},  SmallFigure{"⁵", '5', true},
-    SmallFigure{"⁶", '6', true},  SmallFigure{"⁷", '7', true},  SmallFigure{"⁸", '8', true},
-    SmallFigure{"⁹", '9', true},  SmallFigure{"⁻", '-', true},  SmallFigure{"₀", '0', false},
-    SmallFigure{"₁", '1', false}, SmallFigure{"₂", '2', false}, SmallFigure{"₃", '3', false},
-    SmallFigure{"₄", '4', false}, SmallFigure{"₅", '5', false}, SmallFigure{"₆", '6', false},
-    SmallFigure{"₇", '7', false}, SmallFigure{"₈", '8', false}, SmallFigure{"₉", '9', false}};
+constexpr auto kSmallFigures = std::to_array<SmallFigure>(
+    {{"⁰", '0', true},  {"¹", '1', true},  {"²", '2', true},  {"³", '3', true},  {"⁴", '4', true},
+     {"⁵", '5', true},  {"⁶", '6', true},  {"⁷", '7', true},  {"⁸", '8', true},  {"⁹", '9', true},
+     {"⁻", '-', true},  {"₀", '0', false}, {"₁", '1', false}, {"₂", '2', false}, {"₃", '3', false},
+     {"₄", '4', false}, {"₅", '5', false}, {"₆", '6', false}, {"₇", '7', false}, {"₈", '8', false},
+     {"₉", '9', false}});
 
 const SmallFigure* small_figure_of(std::string_view character) {
   const auto* const found = std::ranges::find(kSmallFigures, character, &SmallFigure::text);
@@ -120,7 +118,7 @@ void Formula::add_to(std::vector<DrawItem>& items, ItemId id, const Point& origi
     for (const Point& point : std::get<Outline>(mark.shape)) {
       outline.push_back({at.x + point.x * em, at.y - point.y * em});
     }
-    items.emplace_back(PathItem{nth(id, n), std::move(outline), true, mark_color, std::nullopt});
+    items.emplace_back(PathItem{nth(id, n), std::move(outline), true, mark_color});
   }
 }
 
@@ -183,6 +181,14 @@ Formula FormulaSetter::italic(std::string_view utf8) const {
   return line;
 }
 
+Formula FormulaSetter::with_script(const Formula& base, Formula script, double y_em) {
+  script.shift(0, y_em, kScriptScale);
+  script.bottom_em_ = y_em;
+  Formula line = base + script;
+  line.width_em_ += kAfterScript;
+  return line;
+}
+
 // NOLINTBEGIN(readability-convert-member-functions-to-static): set.root() reads like set.text()
 Formula FormulaSetter::root(const Formula& of) const {
   Formula content = of;
@@ -198,20 +204,11 @@ Formula FormulaSetter::root(const Formula& of) const {
 }
 
 Formula FormulaSetter::raised(const Formula& base, const Formula& exponent) const {
-  Formula script = exponent;
-  script.shift(0, kRaise, kScriptScale);
-  Formula line = base + script;
-  line.width_em_ += kAfterScript;
-  return line;
+  return with_script(base, exponent, kRaise);
 }
 
 Formula FormulaSetter::lowered(const Formula& base, const Formula& index) const {
-  Formula script = index;
-  script.shift(0, -kLower, kScriptScale);
-  script.bottom_em_ = -kLower;
-  Formula line = base + script;
-  line.width_em_ += kAfterScript;
-  return line;
+  return with_script(base, index, -kLower);
 }
 // NOLINTEND(readability-convert-member-functions-to-static)
 

@@ -2,6 +2,7 @@
 // In: parts, put together by functions. Out: text items, rules and root signs at a place.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,6 +64,12 @@ class FormulaSetter {
 
   /// Upright text. Superscripts and subscripts of Unicode are raised and lowered figures.
   Formula text(std::string_view utf8) const;
+  /// One of each, such as wordings of a title.
+  std::vector<Formula> texts(std::initializer_list<std::string_view> lines) const {
+    std::vector<Formula> all;
+    for (const std::string_view line : lines) all.push_back(text(line));
+    return all;
+  }
   /// Text in digits of equal width.
   Formula digits(std::string_view utf8) const;
   /// Letters, Latin or small Greek ones, in italics; other characters stay upright.
@@ -73,6 +80,7 @@ class FormulaSetter {
 
  private:
   Formula set(Face face, std::string_view utf8) const;
+  static Formula with_script(const Formula& base, Formula script, double y_em);
 
   const Fonts& fonts_;
   Face text_face_;

@@ -11,8 +11,7 @@
 #include "core/text.hpp"
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
-#include "draw/overlays/loupe_gap.hpp"
-#include "draw/panel_grid.hpp"
+#include "draw/overlays/loupe.hpp"
 #include "draw/stage/stage.hpp"
 #include "draw/text_lines.hpp"
 

@@ -7,11 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -151,6 +149,13 @@ struct CounterRoom {
 FramePlan plan_frame(const LayoutContext& context, const std::optional<CounterRoom>& counter,
                      double read_outs_height_px);
 
+/// Least side of a diagram, in ems.
+inline constexpr double kLeastPanel_em = 6;
+
+/// The grid in which `count` panels come out largest, if possible not too small.
+/// @param gap, em  between panels, and of their text, in pixels
+std::vector<Rect> panel_grid(std::size_t count, const Rect& area, double gap, double em);
+
 /// The axis of a line on a stage that begins at the left edge, however high it is.
 /// @throws UsageError if the view is beyond a wall, or too close to tell positions.
 AxisPlace place_axis(const LayoutContext& context, double stage_width_px);
@@ -170,11 +175,6 @@ Layout lay_out_article(const LayoutContext& context, const Integer& longest_coun
 /// @throws UsageError if positions along a range of the view, which are doubles, would be drawn in
 ///         wrong places. @param key  of the range
 void check_resolution(const Range& range, const char* key, double scale);
-
-/// The two blocks of a closed form while the picture is exposed, as seen from their wall.
-/// @param red, blue  at its instant, without dwells
-ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const AxisPlace& axis,
-                                 std::span<const WeightedExposure> exposures);
 
 /// What is the same in every frame.
 inline Drawable unchanging(std::vector<DrawItem> same) {

@@ -21,8 +21,8 @@ constexpr Color kPureRed = {255, 0, 0};
 constexpr Palette kArticle = {
     .background = kWhite,
     .wall = kBlack,
-    .blue = {kPureBlue, kPureBlue, kWhite, kPureBlue, kPureBlue, 0, "blue"},
-    .red = {kPureRed, kPureRed, kBlack, kPureRed, {206, 42, 34}, 0, "red"},
+    .blue = {kPureBlue, kPureBlue, kWhite, kPureBlue, kPureBlue},
+    .red = {kPureRed, kPureRed, kBlack, kPureRed, {206, 42, 34}},
     .text = {16, 16, 16},
     .muted = {96, 96, 96},
     .accent = {168, 72, 0},
@@ -37,8 +37,8 @@ constexpr Color kLightRed = {255, 107, 94};
 constexpr Palette kLecture = {
     .background = {15, 18, 22},
     .wall = kInk,
-    .blue = {kLightBlue, kLightBlue, {8, 16, 30}, kLightBlue, kLightBlue, 0, "blue"},
-    .red = {kLightRed, kLightRed, {34, 8, 4}, kLightRed, kLightRed, 0, "red"},
+    .blue = {kLightBlue, kLightBlue, {8, 16, 30}, kLightBlue, kLightBlue},
+    .red = {kLightRed, kLightRed, {34, 8, 4}, kLightRed, kLightRed},
     .text = kInk,
     .muted = {154, 163, 176},
     .accent = {255, 209, 102},
@@ -52,8 +52,8 @@ constexpr Color kDeepRed = {229, 72, 59};
 constexpr Palette kLectureLight = {
     .background = {251, 250, 247},
     .wall = {20, 24, 31},
-    .blue = {kDeepBlue, kDeepBlue, {4, 12, 26}, kDeepBlue, {31, 111, 204}, 0, "blue"},
-    .red = {kDeepRed, kDeepRed, {30, 4, 0}, kDeepRed, {201, 52, 40}, 0, "red"},
+    .blue = {kDeepBlue, kDeepBlue, {4, 12, 26}, kDeepBlue, {31, 111, 204}},
+    .red = {kDeepRed, kDeepRed, {30, 4, 0}, kDeepRed, {201, 52, 40}},
     .text = {20, 24, 31},
     .muted = {89, 98, 111},
     .accent = {172, 90, 0},
@@ -65,20 +65,8 @@ constexpr Palette kLectureLight = {
 constexpr Palette kChalkboard = {
     .background = {32, 56, 46},
     .wall = {236, 238, 228},
-    .blue = {{126, 178, 226},
-             {226, 240, 250},
-             {16, 34, 46},
-             {150, 198, 240},
-             {150, 198, 240},
-             0,
-             "blue"},
-    .red = {{230, 134, 116},
-            {252, 230, 222},
-            {52, 18, 12},
-            {240, 148, 130},
-            {240, 148, 130},
-            0,
-            "red"},
+    .blue = {{126, 178, 226}, {226, 240, 250}, {16, 34, 46}, {150, 198, 240}, {150, 198, 240}},
+    .red = {{230, 134, 116}, {252, 230, 222}, {52, 18, 12}, {240, 148, 130}, {240, 148, 130}},
     .text = {244, 245, 236},
     .muted = {188, 204, 192},
     .accent = {248, 222, 126},
@@ -90,15 +78,8 @@ constexpr Palette kChalkboard = {
 constexpr Palette kDark = {
     .background = {46, 46, 46},
     .wall = {224, 224, 224},
-    .blue = {{104, 166, 232},
-             {190, 218, 248},
-             {10, 18, 30},
-             {111, 176, 240},
-             {111, 176, 240},
-             0,
-             "blue"},
-    .red =
-        {{236, 112, 96}, {252, 204, 196}, {40, 8, 6}, {240, 120, 102}, {240, 120, 102}, 0, "red"},
+    .blue = {{104, 166, 232}, {190, 218, 248}, {10, 18, 30}, {111, 176, 240}, {111, 176, 240}},
+    .red = {{236, 112, 96}, {252, 204, 196}, {40, 8, 6}, {240, 120, 102}, {240, 120, 102}},
     .text = {240, 240, 240},
     .muted = {176, 176, 176},
     .accent = {255, 184, 77},
@@ -110,9 +91,8 @@ constexpr Palette kDark = {
 constexpr Palette kPrint = {
     .background = kWhite,
     .wall = kBlack,
-    .blue = {{180, 180, 180}, kBlack, kBlack, kBlack, kBlack, 0, "left", "left block"},
-    .red =
-        {{112, 112, 112}, kBlack, kWhite, {112, 112, 112}, {84, 84, 84}, 4, "right", "right block"},
+    .blue = {{180, 180, 180}, kBlack, kBlack, kBlack, kBlack},
+    .red = {{112, 112, 112}, kBlack, kWhite, {112, 112, 112}, {84, 84, 84}, 4},
     .text = kBlack,
     .muted = {72, 72, 72},
     .accent = kBlack,
@@ -125,16 +105,8 @@ constexpr Palette kPrint = {
 constexpr Palette kColorblind = {
     .background = kWhite,
     .wall = kBlack,
-    .blue =
-        {{0, 114, 178}, {0, 58, 92}, kWhite, {0, 114, 178}, {0, 114, 178}, 0, "left", "left block"},
-    .red = {{230, 130, 50},
-            {110, 50, 0},
-            kBlack,
-            {213, 94, 0},
-            {180, 72, 0},
-            4,
-            "right",
-            "right block"},
+    .blue = {{0, 114, 178}, {0, 58, 92}, kWhite, {0, 114, 178}, {0, 114, 178}},
+    .red = {{230, 130, 50}, {110, 50, 0}, kBlack, {213, 94, 0}, {180, 72, 0}, 4},
     .text = {16, 16, 16},
     .muted = {84, 84, 84},
     .accent = {108, 0, 216},
@@ -148,12 +120,11 @@ constexpr double kTextContrast = 4.5;
 constexpr double kLineContrast = 3;
 constexpr double kFillContrast = 2;
 
-constexpr std::array<double, 256> light_of_samples() {
+constexpr auto kLight = [] {
   std::array<double, 256> light{};
   for (std::size_t i = 0; i < light.size(); ++i) light[i] = light_of(double(i) / 255);
   return light;
-}
-constexpr std::array<double, 256> kLight = light_of_samples();
+}();
 
 /// WCAG 2.1, "relative luminance".
 double luminance(const Color& color) {
@@ -270,13 +241,8 @@ BlockColors colors_from(const Color& fill, Theme theme, const Palette& palette) 
   const auto with_contrast = [&](const Color& color, double least) {
     return readable(color, palette.text, palette.background, least);
   };
-  return {fill,
-          with_contrast(edge, kLineContrast),
-          black_or_white_on(fill),
-          with_contrast(fill, kLineContrast),
-          with_contrast(fill, kTextContrast),
-          0,
-          ""};
+  return {fill, with_contrast(edge, kLineContrast), black_or_white_on(fill),
+          with_contrast(fill, kLineContrast), with_contrast(fill, kTextContrast)};
 }
 
 /// Of each body, the place of its colour among blue, red and further ones. See colors_of().
@@ -314,32 +280,30 @@ std::vector<std::size_t> color_places(const Scene& scene) {
   return places;
 }
 
+bool has_color_as_name(const BlockColors& block) {
+  const std::string_view name = block.name;
+  return name == "blue" || name == "red";
+}
+
 /// See colors_of().
 void name(BlockColors& blue, BlockColors& red, const TwoBlocks& blocks) {
-  const auto has_color_as_name = [](const BlockColors& block) {
-    return *block.name != '\0' && std::string_view(block.name) == block.full_name;
-  };
   if (has_color_as_name(blue) && has_color_as_name(red)) return;
-  const Block& inner = blocks.blue;
-  const Block& outer = blocks.red;
-  if (inner.mass == outer.mass) {
-    BlockColors& left = blocks.side > 0 ? blue : red;
-    BlockColors& right = blocks.side > 0 ? red : blue;
-    left.name = "left";
-    left.full_name = "left block";
-    right.name = "right";
-    right.full_name = "right block";
-    return;
+  const Rational& inner = blocks.blue.mass;
+  const Rational& outer = blocks.red.mass;
+  if (inner == outer) {
+    blue.name = blocks.side > 0 ? "left" : "right";
+    red.name = blocks.side > 0 ? "right" : "left";
+  } else {
+    blue.name = inner < outer ? "small" : "large";
+    red.name = inner < outer ? "large" : "small";
   }
-  BlockColors& large = outer.mass > inner.mass ? red : blue;
-  BlockColors& small = outer.mass > inner.mass ? blue : red;
-  large.name = "large";
-  large.full_name = "large block";
-  small.name = "small";
-  small.full_name = "small block";
 }
 
 }  // namespace
+
+std::string BlockColors::full_name() const {
+  return has_color_as_name(*this) ? name : fmt::format("{} block", name);
+}
 
 Palette palette_of(Theme theme, const Colors& own) {
   // In the order of Theme.
@@ -347,6 +311,9 @@ Palette palette_of(Theme theme, const Colors& own) {
                                     kDark,    kPrint,   kColorblind};
   Palette palette = kPalettes.at(static_cast<std::size_t>(theme));
   if (own.background || own.ink) palette = adapted(palette, own);
+  const bool has_bars = palette.red.bars > 0;
+  palette.blue.name = has_bars ? "left" : "blue";
+  palette.red.name = has_bars ? "right" : "red";
   if (own.accent) palette.accent = color_of(*own.accent);
   if (own.muted) palette.muted = color_of(*own.muted);
   if (own.done) palette.done = color_of(*own.done);

@@ -30,7 +30,8 @@ struct BlockColors {
   /// The block's name in the picture: its colour, or, where blocks are not red and blue, its size
   /// or its side.
   const char* name = "";
-  const char* full_name = name;  ///< where the name alone might be read as a direction
+  /// Where the name alone might be read as a direction.
+  std::string full_name() const;
 };
 
 /// On the background, text has a contrast of at least 4.5, a line of 3 and a filled area of 2.

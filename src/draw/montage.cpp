@@ -231,7 +231,7 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
     empty_.items.emplace_back(
         RectangleItem{nth(ItemId::compared, static_cast<std::size_t>(i)),
                       to_rect(place(at + cell_px, margin, line_px, breadth - 2 * margin)),
-                      palette_of(view).grid, std::nullopt});
+                      palette_of(view).grid});
   }
 }
 

@@ -1,11 +1,8 @@
-#include "draw/outline.hpp"
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
-#include "draw/cairo_calls.hpp"
+#include "draw/painter.hpp"
 
 namespace piblocks {
 namespace {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -13,9 +12,6 @@
 
 namespace piblocks {
 namespace {
-
-/// Red, green and blue.
-using Rgb = std::array<double, 3>;
 
 /// A kind of rows.
 struct RowCover {
@@ -182,12 +178,6 @@ class ExposedColumn {
   std::vector<std::optional<Known>> known_;  // of each kind, in this column and those before
 };
 
-/// Columns from `begin` to before `end`.
-struct ColumnRun {
-  int begin = 0;
-  int end = 0;
-};
-
 /// The pixels of an area, and what was there before the blocks were painted.
 class ExposedArea {
  public:
@@ -224,7 +214,7 @@ class ExposedArea {
     bool is_alike_inside = false;  // where columns are not beside an end
   };
 
-  static void add(std::vector<ColumnRun>& runs, int x) {
+  static void add(std::vector<PixelRun>& runs, int x) {
     if (runs.empty() || runs.back().end != x) runs.push_back({x, x});
     runs.back().end = x + 1;
   }
@@ -251,9 +241,9 @@ class ExposedArea {
       for (std::size_t y = unlike_[i].y + 1; y < end; ++y) copy_from_above(y, runs_);
     }
   }
-  void copy_from_above(std::size_t y, const std::vector<ColumnRun>& runs) {
+  void copy_from_above(std::size_t y, const std::vector<PixelRun>& runs) {
     const std::uint32_t* const above = rows_[y - 1];
-    for (const ColumnRun& run : runs) {
+    for (const PixelRun& run : runs) {
       std::copy(above + run.begin, above + run.end, rows_[y] + run.begin);
     }
   }
@@ -261,9 +251,9 @@ class ExposedArea {
   PixelRect area_;
   std::vector<std::uint32_t>& background_;  // row by row
   std::vector<std::uint32_t*> rows_;
-  std::vector<Row> unlike_;      // the row above, in what the blocks cover or in the background
-  std::vector<ColumnRun> runs_;  // with blocks in them
-  std::vector<ColumnRun> inner_runs_;  // of these, not beside an end of a block
+  std::vector<Row> unlike_;     // the row above, in what the blocks cover or in the background
+  std::vector<PixelRun> runs_;  // with blocks in them
+  std::vector<PixelRun> inner_runs_;  // of these, not beside an end of a block
 };
 
 }  // namespace

@@ -14,8 +14,6 @@
 namespace piblocks {
 namespace {
 
-/// Red, green and blue.
-using Rgb = std::array<double, 3>;
 /// Sums of light in whole numbers do not depend on their order, so that a part of the picture has
 /// the pixels of the whole.
 using LightSum = std::array<std::int64_t, 3>;
@@ -41,13 +39,7 @@ double half_plane(double inside, double x, double y, double length) {
   return inside > 0 ? 1 - outside : outside;
 }
 
-/// Pixels [begin, end) of a row.
-struct Run {
-  int begin = 0;
-  int end = 0;
-};
-
-Run cut(const Run& run, const Run& to) {
+PixelRun cut(const PixelRun& run, const PixelRun& to) {
   return {std::clamp(run.begin, to.begin, to.end), std::clamp(run.end, to.begin, to.end)};
 }
 
@@ -70,18 +62,18 @@ class MovingDisc {
 
   /// Whether it looks the same in a row and in the one above, wherever it is.
   static bool repeats(int /*y*/) { return false; }
-  Run rows(const Point& at) const {
+  PixelRun rows(const Point& at) const {
     return {whole(std::floor(at.y - outer_ - kEdge_px)),
             whole(std::ceil(at.y + outer_ + kEdge_px))};
   }
 
   /// Calls solid(run, samples) and edge(x, over), which is what it makes of the samples behind it.
   template <typename Solid, typename Edge>
-  void visit_row(const Point& at, int y, const Run& columns, const Solid& solid,
+  void visit_row(const Point& at, int y, const PixelRun& columns, const Solid& solid,
                  const Edge& edge) const {
     const double down = y + 0.5 - at.y;
-    const Run run = cut(within(outer_ + kEdge_px, down, at.x), columns);
-    Run inside = within(inner_ - kEdge_px, down, at.x);
+    const PixelRun run = cut(within(outer_ + kEdge_px, down, at.x), columns);
+    PixelRun inside = within(inner_ - kEdge_px, down, at.x);
     if (opacity_ < 1 || inside.begin >= inside.end) inside = {run.end, run.end};
     inside = cut(inside, run);
     const auto paint = [&](int x) {
@@ -102,7 +94,7 @@ class MovingDisc {
     return radius > 0 ? std::sqrt(std::max(0.0, radius * radius - 1.0 / 12)) : -2 * kEdge_px;
   }
   /// Pixels of a row so far below the centre that have theirs within a distance of it.
-  static Run within(double distance, double down, double at) {
+  static PixelRun within(double distance, double down, double at) {
     const double left = distance * distance - down * down;
     if (distance <= 0 || left <= 0) return {};
     const double half = std::sqrt(left);
@@ -137,18 +129,18 @@ class MovingBlock {
   explicit MovingBlock(const ExposedBlock& block) : block_(block), cover_(block) {}
 
   bool repeats(int y) const { return cover_.of_row(y) == cover_.of_row(y - 1); }
-  Run rows(const Point& /*at*/) const {
+  PixelRun rows(const Point& /*at*/) const {
     return {whole(std::floor(block_.bounds.y)), whole(std::ceil(block_.bounds.bottom()))};
   }
 
   template <typename Solid, typename Edge>
-  void visit_row(const Point& at, int y, const Run& columns, const Solid& solid,
+  void visit_row(const Point& at, int y, const PixelRun& columns, const Solid& solid,
                  const Edge& edge) const {
     const Cover row = cover_.of_row(y);
     const double right = at.x + block_.bounds.width;
     const double end = std::max(cover_.line_px(), row.inset);
-    const Run run = cut({whole(std::floor(at.x)), whole(std::ceil(right))}, columns);
-    Run inside{whole(std::ceil(at.x + end)), whole(std::floor(right - end))};
+    const PixelRun run = cut({whole(std::floor(at.x)), whole(std::ceil(right))}, columns);
+    PixelRun inside{whole(std::ceil(at.x + end)), whole(std::floor(right - end))};
     if (row.outer < 1 || inside.begin >= inside.end) inside = {run.end, run.end};
     inside = cut(inside, run);
     const auto paint = [&](int x) {
@@ -223,12 +215,12 @@ class MomentSums {
 
   template <typename Shape>
   void add(const Shape& shape, const Point& place) {
-    const Run rows = cut(shape.rows(place), {area_.y_px, area_.bottom_px()});
+    const PixelRun rows = cut(shape.rows(place), {area_.y_px, area_.bottom_px()});
     for (const int y : rows_) {
       if (y < rows.begin || y >= rows.end) continue;
       shape.visit_row(
           place, y, {area_.x_px, area_.right_px()},
-          [&](const Run& run, const Rgb& samples) { add_solid(y, run, samples); },
+          [&](const PixelRun& run, const Rgb& samples) { add_solid(y, run, samples); },
           [&](int x, const auto& over) { add_edge(x, y, over); });
     }
   }
@@ -268,7 +260,7 @@ class MomentSums {
     return {light_.units_of(samples[0]), light_.units_of(samples[1]), light_.units_of(samples[2])};
   }
 
-  void add_solid(int y, const Run& run, const Rgb& samples) {
+  void add_solid(int y, const PixelRun& run, const Rgb& samples) {
     PixelSum& begin = at(run.begin, y);
     PixelSum& end = at(run.end, y);
     begin.solid_weight += weight_;

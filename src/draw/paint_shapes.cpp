@@ -1,5 +1,3 @@
-#include <piblocks/image.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "draw/extent.hpp"
-#include "draw/outline.hpp"
 #include "draw/painter.hpp"
 
 namespace piblocks {
@@ -43,8 +39,9 @@ void each_strip(const Rect& bounds, double corner_px, const Visit& visit) {
   }
 }
 
-void add_rectangle(cairo_t& cr, const Rect& r) {
-  cairo_rectangle(&cr, r.x, r.y, r.width, r.height);
+void fill(cairo_t& cr, const Color& color) {
+  set_color(cr, color);
+  cairo_fill(&cr);
 }
 
 /// The same rows as of a block that moves.
@@ -52,8 +49,7 @@ void paint_round_pixels(cairo_t& cr, const RectangleItem& item) {
   const Rect& bounds = item.bounds;
   if (item.fill) {
     each_strip(bounds, item.corner_px, [&](const Rect& strip) { add_rectangle(cr, strip); });
-    set_color(cr, *item.fill);
-    cairo_fill(&cr);
+    fill(cr, *item.fill);
   }
   if (!item.stroke) return;
   const double line = std::min({item.stroke->width_px, bounds.width, bounds.height});
@@ -65,8 +61,7 @@ void paint_round_pixels(cairo_t& cr, const RectangleItem& item) {
     add_rectangle(cr, {strip.x, strip.y, left - strip.x, strip.height});
     add_rectangle(cr, {right, strip.y, strip.right() - right, strip.height});
   });
-  set_color(cr, item.stroke->color);
-  cairo_fill(&cr);
+  fill(cr, item.stroke->color);
 }
 
 /// A rectangle with round corners as a path.
@@ -96,7 +91,7 @@ void stroke_inside(cairo_t& cr, const Rect& bounds, const Stroke& stroke) {
   if (width_px < stroke.width_px) {
     // A shape thinner than its stroke is nothing but stroke. Cairo paints half of a line around a
     // rectangle of no width, and nothing of one around a point.
-    cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+    add_rectangle(cr, bounds);
     cairo_fill(&cr);
     return;
   }
@@ -104,7 +99,7 @@ void stroke_inside(cairo_t& cr, const Rect& bounds, const Stroke& stroke) {
   cairo_set_line_width(&cr, width_px);
   if (stroke.dash_px <= 0) {
     cairo_set_dash(&cr, nullptr, 0, 0);
-    cairo_rectangle(&cr, middle.x, middle.y, middle.width, middle.height);
+    add_rectangle(cr, middle);
     cairo_stroke(&cr);
     return;
   }
@@ -123,11 +118,6 @@ Rect within_reach(const Rect& r) {
   const double y = within_reach(r.y);
   if (x == r.x && y == r.y && r.width <= kMaxSide_px && r.height <= kMaxSide_px) return r;
   return {x, y, within_reach(r.right()) - x, within_reach(r.bottom()) - y};
-}
-
-void fill(cairo_t& cr, const Color& color) {
-  set_color(cr, color);
-  cairo_fill(&cr);
 }
 
 /// The fill of the current path, then its line, centred on it.
@@ -194,6 +184,10 @@ void add_circle_curves(cairo_t& cr, const Point& centre, double radius) {
 
 }  // namespace
 
+void add_rectangle(cairo_t& cr, const Rect& r) {
+  cairo_rectangle(&cr, r.x, r.y, r.width, r.height);
+}
+
 void set_color(cairo_t& cr, const Color& color) {
   // An opaque source takes Cairo's faster ways.
   if (color.alpha == 255) {
@@ -224,9 +218,8 @@ void paint_shape(cairo_t& cr, const RectangleItem& item) {
   const double corner_px = std::min({item.corner_px, bounds.width / 2, bounds.height / 2});
   if (corner_px > 0) return paint_round(cr, {item.id, bounds, item.fill, item.stroke, corner_px});
   if (item.fill) {
-    set_color(cr, *item.fill);
-    cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
-    cairo_fill(&cr);
+    add_rectangle(cr, bounds);
+    fill(cr, *item.fill);
   }
   if (item.stroke) stroke_inside(cr, bounds, *item.stroke);
 }
@@ -279,7 +272,7 @@ void paint_shape(cairo_t& cr, const GlowItem& item) {
                                       color.alpha / 255.0 * GlowItem::strength(distance));
   }
   cairo_set_source(&cr, light.get());
-  cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
+  add_rectangle(cr, item.bounds);
   cairo_fill(&cr);
 }
 

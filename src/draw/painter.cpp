@@ -1,7 +1,5 @@
 #include "draw/painter.hpp"
 
-#include <piblocks/error.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -66,7 +64,7 @@ bool has_pixels_of_picture(cairo_t& cr) {
   cairo_get_matrix(&cr, &matrix);
   const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
                            matrix.x0 == 0 && matrix.y0 == 0;
-  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+  return is_identity && has_pixels(cr);
 }
 
 bool is_small(const DiscItem& disc) {
@@ -76,7 +74,7 @@ bool is_small(const DiscItem& disc) {
 
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rect& bounds) {
   cairo_set_source_surface(&cr, &pixels, bounds.x, bounds.y);
-  cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+  add_rectangle(cr, bounds);
   cairo_fill(&cr);
 }
 
@@ -141,7 +139,7 @@ void Painter::paint(cairo_t& cr, const DiscItem& item) {
                       item.fill,
                       item.stroke};
   const int side_px = 2 * reach_px + 1;
-  auto kept = std::ranges::find(discs_, disc, &KeptDisc::disc);
+  auto kept = std::ranges::find(discs_, disc, &Kept<DiscItem>::source);
   if (kept == discs_.end()) {
     constexpr std::size_t kMostKept = 256;
     if (discs_.size() == kMostKept) discs_.clear();
@@ -234,7 +232,7 @@ void Painter::paint(cairo_t& cr, const GroupItem& item, const PixelRect& area) {
   }
   const double scale = bounds.width / item.list->width_px;
   cairo_save(&cr);
-  cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+  add_rectangle(cr, bounds);
   cairo_clip(&cr);
   cairo_translate(&cr, bounds.x, bounds.y);
   cairo_scale(&cr, scale, scale);

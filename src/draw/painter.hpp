@@ -5,14 +5,16 @@
 #include <cairo.h>
 #include <piblocks/image.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <utility>
 #include <vector>
 
-#include "draw/cairo_handles.hpp"
+#include "draw/cairo_calls.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/font.hpp"
 #include "draw/light.hpp"
@@ -20,6 +22,7 @@
 namespace piblocks {
 
 void set_color(cairo_t& cr, const Color& color);
+void add_rectangle(cairo_t& cr, const Rect& r);
 
 // The context has no current path, neither before nor after.
 void paint_shape(cairo_t& cr, const RectangleItem& item);
@@ -27,6 +30,21 @@ void paint_shape(cairo_t& cr, const PathItem& item);
 void paint_shape(cairo_t& cr, const DiscItem& item);
 /// For vector files.
 void paint_shape(cairo_t& cr, const GlowItem& item);
+
+// Lines and circles as closed polygons, to be filled by the non-zero rule. Cairo's own differ from
+// version to version, and with the sine of the C library. These take sums, products and square
+// roots alone, which are the same everywhere.
+
+/// The outline of a line through the points, with round joints and, unless it is closed, flat ends.
+/// @param dash_px  as Stroke; a closed line begins with a dash at the first point.
+void add_line_outline(cairo_t& cr, std::span<const Point> points, bool closed, double width_px,
+                      double dash_px);
+
+/// Clockwise on the screen, or the other way round for a hole in such a circle.
+enum class Winding { clockwise, counterclockwise };
+
+void add_circle(cairo_t& cr, const Point& centre, double radius_px,
+                Winding winding = Winding::clockwise);
 
 /// Fills a rectangle with a surface whose upper left corner is there.
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rect& bounds);
@@ -74,6 +92,15 @@ class SurfacePixels {
   PixelRect area_;
   unsigned char* data_;
   std::ptrdiff_t stride_bytes_;
+};
+
+/// Red, green and blue.
+using Rgb = std::array<double, 3>;
+
+/// Pixels [begin, end) of a row.
+struct PixelRun {
+  int begin = 0;
+  int end = 0;
 };
 
 /// Keeps fonts, pixels of plates and images, and a table of light, once they were needed.
@@ -130,11 +157,7 @@ class Painter {
   // Those that were painted last are at the end.
   std::vector<KeptPlate> plates_;
   std::vector<KeptImage> images_;
-  struct KeptDisc {
-    DiscItem disc;  ///< in the surface, without an id
-    CairoSurfacePtr pixels;
-  };
-  std::vector<KeptDisc> discs_;
+  std::vector<Kept<DiscItem>> discs_;  ///< in their surfaces, without ids
 };
 
 }  // namespace piblocks

@@ -1,6 +1,6 @@
-// A set of pixels of a picture.
-// In: rectangles. Out: disjoint rectangles around them, at most one in each cell of 16x16 pixels,
-// joined where they continue each other.
+// A set of pixels of a picture, and what changes from one picture to the next.
+// In: rectangles or draw lists. Out: disjoint rectangles around what differs, at most one in each
+// cell of 16x16 pixels, joined where they continue each other.
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "draw/extent.hpp"
 
 namespace piblocks {
 
@@ -55,5 +57,10 @@ class Region {
   std::vector<std::size_t> above_;
   std::vector<std::size_t> here_;
 };
+
+/// Adds every pixel in which the pictures may differ. These are all pixels if the lists have
+/// neither the same ids nor rising ones.
+void add_changes(const DrawList& before, const DrawList& after, const MeasureText& width_em,
+                 Region& region);
 
 }  // namespace piblocks

@@ -183,7 +183,8 @@ TEST(GraphPanels, SayWhatIsTrue) {
 }
 
 TEST(CornerZoom, IsContinuousAndGrowsAsTheGapShrinks) {
-  const CornerZoom zoom(1e-19);
+  const Fonts fonts;
+  const CornerZoom zoom(1e-19, {fonts, Face::text});
   double last = 1;
   EXPECT_EQ(zoom.factor_for(1), 1);
   for (double share = 1; share > 1e-19; share /= 1.0005) {

@@ -1,13 +1,12 @@
 // Outlines of lines and circles as pixels, against the distance of each pixel from the line.
-#include "draw/outline.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "draw/cairo_handles.hpp"
+#include "draw/cairo_calls.hpp"
+#include "draw/painter.hpp"
 #include "support/traced_random.hpp"
 
 namespace piblocks {

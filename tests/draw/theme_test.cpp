@@ -210,7 +210,7 @@ TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
     scene.system = system_of(blocks);
     scene.styles[0] = style;
     scene.view.theme = theme;
-    return std::string(palette_of(scene.view, blocks, colors_of(scene, &blocks)).red.full_name);
+    return palette_of(scene.view, blocks, colors_of(scene, &blocks)).red.full_name();
   };
   System system = article_system(2);
   EXPECT_EQ(name_of_red(Theme::print, *two_blocks_of(system)), "large block");

@@ -1,5 +1,3 @@
-#include "draw/overlays/counter.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/two_blocks.hpp>
@@ -11,6 +9,7 @@
 
 #include "core/smooth_step.hpp"
 #include "draw/number_text.hpp"
+#include "draw/overlays/overlays.hpp"
 #include "scene/counted_pi.hpp"
 #include "scene/schedule.hpp"
 
@@ -97,22 +96,16 @@ class Counter {
     const double label_right = is_beside ? left - kLabelGap_em * sizes_.text : place_.right_px;
     if (place_.has_label) {
       const bool says_over = is_over && !is_infinite;
-      items.emplace_back(
-          TextItem{ItemId::label,
-                   {label_right - (says_over ? over_px_ : label_px_), place_.label_baseline_px},
-                   std::string(says_over ? kOverLabel : kCountLabel),
-                   sizes_.text,
-                   is_over ? palette_.done : palette_.muted,
-                   face_});
+      const Point at{label_right - (says_over ? over_px_ : label_px_), place_.label_baseline_px};
+      items.emplace_back(TextItem{ItemId::label, at,
+                                  std::string(says_over ? kOverLabel : kCountLabel), sizes_.text,
+                                  is_over ? palette_.done : palette_.muted, face_});
     }
     // From its middle.
-    items.emplace_back(
-        TextItem{ItemId::count,
-                 {left - growth_px * count_em / 2, place_.baseline_px + growth_px * kHalfFigure_em},
-                 text,
-                 size_px + growth_px,
-                 is_over ? palette_.accent : palette_.text,
-                 Face::digits});
+    const Point grown{left - growth_px * count_em / 2,
+                      place_.baseline_px + growth_px * kHalfFigure_em};
+    items.emplace_back(TextItem{ItemId::count, grown, text, size_px + growth_px,
+                                is_over ? palette_.accent : palette_.text, Face::digits});
     if (place_.has_pi) add_pi(lit_length(text, pi_count_), items);
   }
 
@@ -133,12 +126,9 @@ class Counter {
     const auto add = [&](std::size_t n, std::string text, const Color& color) {
       if (text.empty()) return;
       right -= pi_widths_.width_em(text) * sizes_.text;
-      items.emplace_back(TextItem{nth(ItemId::pi, n),
-                                  {right, place_.pi_baseline_px},
-                                  std::move(text),
-                                  sizes_.text,
-                                  color,
-                                  face_});
+      const Point at{right, place_.pi_baseline_px};
+      items.emplace_back(
+          TextItem{nth(ItemId::pi, n), at, std::move(text), sizes_.text, color, face_});
     };
     // From right to left: digits that the film does not count, those still to come, those reached.
     add(0, pi_.substr(counted) + "…", palette_.muted);

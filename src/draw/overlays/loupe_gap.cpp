@@ -1,5 +1,3 @@
-#include "draw/overlays/loupe_gap.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -8,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "draw/overlays/loupe_place.hpp"
+#include "draw/overlays/loupe.hpp"
 #include "draw/stage/stage.hpp"
 #include "scene/pacing.hpp"
 
@@ -211,8 +209,6 @@ std::optional<LoupeGap> loupe_gap(const DrawingContext& context) {
   if (!loupe) return std::nullopt;
   return context.pair() != nullptr ? gap_of_pair(context, *loupe) : gap_of_bodies(context, *loupe);
 }
-
-bool has_stage_loupe(const Show& show) { return show.loupe && show.loupe->is_stage; }
 
 bool may_show_loupe(const LayoutContext& context, const AxisPlace& axis) {
   if (!loupe_of(context)) return false;

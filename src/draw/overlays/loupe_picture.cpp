@@ -18,6 +18,8 @@ constexpr double kTearTooth = 0.014;  ///< height and depth
 constexpr double kTearAt = 0.25;
 /// Where the lines to the inset begin, in parts of the outer block's width from the gap.
 constexpr double kLinesInOuter = 0.6;
+/// The loupe is seen in full below this share of the gap at which it begins to be seen.
+constexpr double kFullyShown = 0.5;
 /// The share of its window in which the loupe fades in, and out.
 constexpr double kWindowFade = 0.1;
 /// At this many hits a frame or more, the block between may be anywhere in the gap, and the loupe
@@ -34,7 +36,7 @@ double LoupeInset::gap_px(const FrameState& shown) const {
 
 double LoupeInset::opacity(const FrameState& shown) const {
   const double from_px = style::kMaxLoupeGap * sizes_.short_side;
-  double opacity = (from_px - gap_px(shown)) / (from_px * (1 - loupe_style::kFullyShown));
+  double opacity = (from_px - gap_px(shown)) / (from_px * (1 - kFullyShown));
   if (gap_.window) {
     const Rational way = (shown.time - gap_.window->from) / (gap_.window->to - gap_.window->from);
     const double from_end = to_double(std::min<Rational>(way, 1 - way));
@@ -43,11 +45,9 @@ double LoupeInset::opacity(const FrameState& shown) const {
   return std::clamp(opacity, 0.0, 1.0);
 }
 
-double LoupeInset::most_zoom_of(const FrameState& state) const { return room_px_ / gap_px(state); }
-
 double LoupeInset::level(const FrameState& shown) const {
   const auto level_of = [&](const FrameState& state) {
-    const auto above = std::ranges::upper_bound(zooms_, most_zoom_of(state));
+    const auto above = std::ranges::upper_bound(zooms_, room_px_ / gap_px(state));
     return static_cast<int>(std::max<std::ptrdiff_t>(1, above - zooms_.begin())) - 1;
   };
   if (!shown.moment) return level_of(shown);
@@ -56,7 +56,7 @@ double LoupeInset::level(const FrameState& shown) const {
 
 /// Below the first level the gap fills the inset, which shows more than no zoom would.
 double LoupeInset::zoom_at(double level, const FrameState& shown) const {
-  if (level < 1) return std::clamp(most_zoom_of(shown), 1.0, zooms_[1]);
+  if (level < 1) return std::clamp(room_px_ / gap_px(shown), 1.0, zooms_[1]);
   const auto below = static_cast<std::size_t>(level);
   if (double(below) == level) return zooms_[below];
   const double ratio = zooms_[below + 1] / zooms_[below];
@@ -76,9 +76,8 @@ void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items
   const Point from{std::round(gap_.side > 0 ? outer.x + inside : outer.right() - inside), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
   for (std::size_t n = 0; n < corners_.size(); ++n) {
-    items.emplace_back(PathItem{nth(ItemId::wall, kFirstLine + n),
-                                std::vector<Point>{from, corners_.at(n)}, false, std::nullopt,
-                                stroke});
+    items.emplace_back(
+        line_item(nth(ItemId::wall, kFirstLine + n), {from, corners_.at(n)}, stroke));
   }
 }
 
@@ -102,12 +101,9 @@ DrawList LoupeInset::picture(const FrameState& shown, double px_per_unit) const 
   add_blocks(shown, px_per_unit, list.items);
   std::string slow = slow_text_ ? slow_text_(shown) : std::string();
   if (!slow.empty()) {
-    list.items.emplace_back(TextItem{ItemId::label,
-                                     {loupe_style::kInside * sizes_.short_side, slow_baseline_px_},
-                                     std::move(slow),
-                                     sizes_.text,
-                                     palette_.accent,
-                                     face_});
+    const Point at{kInside * sizes_.short_side, slow_baseline_px_};
+    list.items.emplace_back(
+        TextItem{ItemId::label, at, std::move(slow), sizes_.text, palette_.accent, face_});
   }
   if (marks_) add_marks(shown, px_per_unit, list.items);
   list.items.emplace_back(RectangleItem{ItemId::loupe,
@@ -170,9 +166,14 @@ void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
     items.emplace_back(RectangleItem{nth(ItemId::red_block, kSweep),
                                      mirrored(Rect{face_px_, floor_px_ - inner_height_px_,
                                                    outer_x - face_px_, inner_height_px_}),
-                                     faded(between_.fill, swept * kSweepAlpha), std::nullopt});
+                                     faded(between_.fill, swept * kSweepAlpha)});
   }
-  add_between(*blocks.between, 1 - swept * (1 - kFastBlock), items);
+  const double seen = 1 - swept * (1 - kFastBlock);
+  BlockColors colors = between_;
+  colors.fill = faded(colors.fill, seen);
+  colors.edge = faded(colors.edge, seen);
+  add(ItemId::blue_block, *blocks.between, colors);
+  add_tear(*blocks.between, faded(palette_.background, seen), items);
 }
 
 LoupeInset::SeenBlocks LoupeInset::blocks_of(const FrameState& shown, double px_per_unit) const {
@@ -192,14 +193,6 @@ LoupeInset::SeenBlocks LoupeInset::blocks_of(const FrameState& shown, double px_
   return blocks;
 }
 
-void LoupeInset::add_between(const Rect& block, double seen, std::vector<DrawItem>& items) const {
-  BlockColors colors = between_;
-  colors.fill = faded(colors.fill, seen);
-  colors.edge = faded(colors.edge, seen);
-  add_rectangles(ItemId::blue_block, block_at(block, colors, stage_), items);
-  add_tear(block, faded(palette_.background, seen), items);
-}
-
 /// Near the anchor, for the enlarged block would reach far beyond it.
 void LoupeInset::add_tear(const Rect& block, const Color& color,
                           std::vector<DrawItem>& items) const {
@@ -215,8 +208,7 @@ void LoupeInset::add_tear(const Rect& block, const Color& color,
   std::vector<Point> outline = edge;
   const Point across{kTearWidth * sizes_.short_side, 0};
   for (auto at = edge.rbegin(); at != edge.rend(); ++at) outline.push_back(*at + across);
-  items.emplace_back(
-      PathItem{nth(ItemId::blue_block, kCut), std::move(outline), true, color, std::nullopt});
+  items.emplace_back(PathItem{nth(ItemId::blue_block, kCut), std::move(outline), true, color});
 }
 
 /// "×100" and "×10⁷"; of a window's zoom two digits, as "×3.5·10⁷".
@@ -230,7 +222,7 @@ void LoupeInset::add_zoom(double zoomed, const Color& color, std::vector<DrawIte
   }
   const double size_px = sizes_.mass;
   const double digits = double(tens) / 10;
-  const bool is_plain = exponent < loupe_style::kLeastPower;
+  const bool is_plain = exponent < kLeastPower;
   std::string text = "×";
   if (is_plain) {
     text += fixed_text(digits * zoom_.power(exponent), exponent == 0 ? 1 : 0);
@@ -238,8 +230,7 @@ void LoupeInset::add_zoom(double zoomed, const Color& color, std::vector<DrawIte
     text += fixed_text(digits, 1) + "·";
   }
   const Formula* const power =
-      is_plain ? nullptr
-               : &powers_.at(static_cast<std::size_t>(exponent - loupe_style::kLeastPower));
+      is_plain ? nullptr : &powers_.at(static_cast<std::size_t>(exponent - kLeastPower));
   const double width_em = widths_.width_em(text) + (power != nullptr ? power->width_em() : 0);
   const Point left{zoom_end_.x - (is_zoom_end_left_ ? 0 : width_em * size_px), zoom_end_.y};
   const double text_px = widths_.width_em(text) * size_px;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/rounded.hpp"
-#include "core/text.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "scene/schedule.hpp"
@@ -393,12 +392,9 @@ ReadOutRows::ReadOutRows(const LayoutContext& context)
     double x = margin;
     for (; first < end; ++first) {
       ReadOut& read_out = read_outs[first];
-      placed_.push_back({std::move(read_out.text),
-                         read_out.color,
-                         read_out.widest.size(),
-                         widths[first],
-                         {x, height_ + kRowBaseline * text_px_},
-                         read_out.is_slow_motion});
+      const Point origin{x, height_ + kRowBaseline * text_px_};
+      placed_.push_back({std::move(read_out.text), read_out.color, read_out.widest.size(),
+                         widths[first], origin, read_out.is_slow_motion});
       x += widths[first] + gap;
     }
     height_ += kRowHeight * text_px_;

@@ -2,7 +2,6 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "draw/number_text.hpp"
@@ -63,7 +62,7 @@ Drawable ruler(const DrawingContext& context) {
   const Stroke stroke{context.palette.muted, sizes.grid_line};
   std::vector<DrawItem> items;
   const auto add_line = [&](const Point& from, const Point& to) {
-    items.emplace_back(PathItem{{}, std::vector<Point>{from, to}, false, std::nullopt, stroke});
+    items.emplace_back(line_item({}, {from, to}, stroke));
   };
   add_line({layout.at(left, 0).x, axis_px}, {layout.at(right, 0).x, axis_px});
   int figures = 0;

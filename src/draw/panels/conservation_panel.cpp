@@ -106,8 +106,8 @@ class ConservationPanel {
       }
       if (rows_[row].bodies.empty()) value = rest;
       rest -= value;
-      items.emplace_back(RectangleItem{diagram_.moving(first + 2 * row), bar_of(row, value),
-                                       rows_[row].fill, std::nullopt});
+      items.emplace_back(
+          RectangleItem{diagram_.moving(first + 2 * row), bar_of(row, value), rows_[row].fill});
       add_figure(row, value, first + 2 * row + 1, items);
     }
   }
@@ -116,12 +116,12 @@ class ConservationPanel {
   static std::vector<Formula> titles_of(const DrawingContext& context) {
     const FormulaSetter set = context.setter();
     if (!shows_a_turn(context)) {
-      return {set.text("Energy and momentum are conserved"), set.text("Conservation")};
+      return set.texts({"Energy and momentum are conserved", "Conservation"});
     }
-    return {set.text("Energy only changes hands; the wall takes the momentum"),
-            set.text("Energy changes hands; the wall takes momentum"),
-            set.text("The wall takes momentum, no energy"), set.text("Energy stays; momentum goes"),
-            set.text("Conservation")};
+    return set.texts({"Energy only changes hands; the wall takes the momentum",
+                      "Energy changes hands; the wall takes momentum",
+                      "The wall takes momentum, no energy", "Energy stays; momentum goes",
+                      "Conservation"});
   }
 
   /// From the last block to the first, walls, and the sum.
@@ -209,8 +209,6 @@ class ConservationPanel {
                        "the diagram 'conservation' has no room for bars beside the bodies' names; "
                        "use shorter labels, or make the frame wider");
     }
-    // The bar of energy ends where the figures do.
-    energy_right_ = std::round(inside().right());
   }
 
   double baseline(double top, double height) const {
@@ -229,10 +227,11 @@ class ConservationPanel {
     return {std::min(zero, end), std::round(row_top(row) + (row_px_ - height) / 2),
             std::abs(end - zero), height};
   }
+  /// It ends where the figures do.
   Rect energy_bar() const {
     const double height = std::round(kEnergyBarHeight * energy_px_);
     return {left_, std::round(diagram_.inside().y + (energy_px_ - height) / 2),
-            energy_right_ - left_, height};
+            std::round(inside().right()) - left_, height};
   }
 
   /// All that stays: names, the bar of energy in the first block's colour, which others cover,
@@ -276,8 +275,7 @@ class ConservationPanel {
       const Rect part{bar.x + begin * bar.width, bar.y, end * bar.width - begin * bar.width,
                       bar.height};
       if (i > 0) {
-        items.emplace_back(
-            RectangleItem{diagram_.moving(count - 1 - i), part, colors_[i].fill, std::nullopt});
+        items.emplace_back(RectangleItem{diagram_.moving(count - 1 - i), part, colors_[i].fill});
       }
       // All figures add up to 100.
       const long tenths = std::lround(1000 * end) - std::lround(1000 * begin);
@@ -285,13 +283,10 @@ class ConservationPanel {
       const double width_em = widths_.width_em(text) + kInBar_em;
       if ((width_em + kInBar_em) * em <= part.width) {
         // That of the last part is at its right end.
-        const double left = i == 0 ? part.right() - width_em * em : part.x + kInBar_em * em;
-        figures.emplace_back(TextItem{diagram_.moving(2 * count - 2 - i),
-                                      {left, baseline(bar.y, bar.height)},
-                                      text,
-                                      em,
-                                      colors_[i].text,
-                                      face_});
+        const Point at{i == 0 ? part.right() - width_em * em : part.x + kInBar_em * em,
+                       baseline(bar.y, bar.height)};
+        figures.emplace_back(
+            TextItem{diagram_.moving(2 * count - 2 - i), at, text, em, colors_[i].text, face_});
       }
       begin = end;
     }
@@ -305,14 +300,9 @@ class ConservationPanel {
     if (!has_figures_) return;
     std::string text = text_of(value);
     const double em = diagram_.text_px();
-    const double right = inside().right();
+    const Point at{inside().right() - widths_.width_em(text) * em, baseline(row_top(row), row_px_)};
     items.emplace_back(
-        TextItem{diagram_.moving(n),
-                 {right - widths_.width_em(text) * em, baseline(row_top(row), row_px_)},
-                 std::move(text),
-                 em,
-                 rows_[row].label,
-                 face_});
+        TextItem{diagram_.moving(n), at, std::move(text), em, rows_[row].label, face_});
   }
 
   Diagram diagram_;
@@ -335,7 +325,6 @@ class ConservationPanel {
   // Of the bars.
   double left_ = 0;
   double right_ = 0;
-  double energy_right_ = 0;
 };
 
 }  // namespace

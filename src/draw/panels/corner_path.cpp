@@ -92,11 +92,24 @@ ShownPath CornerPath::shown(const GapWindow& window) const {
   return path;
 }
 
-CornerZoom::CornerZoom(double least_share)
+CornerZoom::CornerZoom(double least_share, const FormulaSetter& set)
     // One power more than is shown: Zoom has no plateau at 1.
     : zoom_(std::clamp(std::lround(std::ceil(2 - rounded::log10(least_share))),
                        static_cast<long>(kPlain), kMostPower),
-            kPlateau) {}
+            kPlateau) {
+  for (std::size_t exponent = 0; exponent < kPlain; ++exponent) {
+    // Of two digits.
+    for (int tenths = 0; tenths <= 100; ++tenths) {
+      const double value = power(exponent) * tenths / 10;
+      plain_.at(exponent).push_back(set.text("×" + fixed_text(value, exponent == 0 ? 1 : 0)));
+    }
+  }
+  for (long exponent = 0; exponent <= zoom_.most_exponent(); ++exponent) {
+    const bool is_plain = exponent < static_cast<long>(kPlain);
+    powers_.push_back(
+        set.text("×" + (is_plain ? fixed_text(power_of_ten(exponent), 0) : power_text(exponent))));
+  }
+}
 
 double CornerZoom::factor_for(double share) const {
   const double room = kGapShare / share;
@@ -110,21 +123,6 @@ std::optional<std::size_t> CornerZoom::exponent_of(double zoom) const {
   const long exponent = zoom_.exponent_of(zoom);
   if (zoom != zoom_.power(exponent)) return std::nullopt;
   return static_cast<std::size_t>(exponent);
-}
-
-void CornerZoom::make_texts(const FormulaSetter& set) {
-  for (std::size_t exponent = 0; exponent < kPlain; ++exponent) {
-    // Of two digits.
-    for (int tenths = 0; tenths <= 100; ++tenths) {
-      const double value = power(exponent) * tenths / 10;
-      plain_.at(exponent).push_back(set.text("×" + fixed_text(value, exponent == 0 ? 1 : 0)));
-    }
-  }
-  for (long exponent = 0; exponent <= zoom_.most_exponent(); ++exponent) {
-    const bool is_plain = exponent < static_cast<long>(kPlain);
-    powers_.push_back(
-        set.text("×" + (is_plain ? fixed_text(power_of_ten(exponent), 0) : power_text(exponent))));
-  }
 }
 
 Formula CornerZoom::text(double zoom) const {

@@ -62,7 +62,7 @@ class CornerPath {
 class CornerZoom {
  public:
   /// @param least_share  the least part of red's greatest gap that is shown, > 0
-  explicit CornerZoom(double least_share);
+  CornerZoom(double least_share, const FormulaSetter& set);
 
   /// Continuous; it grows as the gap shrinks, and the gap stays in the picture.
   /// @param share  of red's greatest gap, > 0
@@ -73,8 +73,6 @@ class CornerZoom {
   std::size_t most_exponent() const { return static_cast<std::size_t>(zoom_.most_exponent()); }
   /// "×100", "×2.5×10⁷": two digits.
   Formula text(double zoom) const;
-  /// Must be called before text().
-  void make_texts(const FormulaSetter& set);
 
  private:
   Zoom zoom_;

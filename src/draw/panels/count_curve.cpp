@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "draw/number_text.hpp"
 
 namespace piblocks {

@@ -3,8 +3,6 @@
 // exact counts.
 #pragma once
 
-#include <piblocks/two_blocks.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>

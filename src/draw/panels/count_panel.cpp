@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/panels/count_curve.hpp"
-#include "draw/panels/count_inset.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
@@ -55,7 +53,7 @@ std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFa
   std::vector<Formula> wordings;
   // The curve ends at the last one of these that the log has.
   if (log.state_at(span_of(context.scene, log).to).is_infinite) {
-    return {set.text("Infinitely many collisions"), set.text("Collisions")};
+    return set.texts({"Infinitely many collisions", "Collisions"});
   }
   if (turn.is_shown && !turn.is_half) wordings.push_back(set.text("The count jumps at the turn"));
   if (turn.is_half) {
@@ -105,6 +103,97 @@ struct CountScale {
   long exponent = 0;            ///< of ten, of the step between them
 };
 
+// Around the inset, in ems.
+constexpr double kAboveInset_em = 0.35;  // from the baseline of the label
+constexpr double kBelowInset_em = 0.95;  // to that of the other one
+constexpr double kMarked_em = 0.3;       // half of the rectangle around the place that it enlarges
+
+/// The turn of the curve, enlarged in a frame of its own.
+class CountInset {
+ public:
+  /// Heights, in ems, of its labels with what is around them: one is above it, one below.
+  static constexpr double kLabel_em = 1.25;
+
+  /// @param count_px  height of a count in the curve that is not enlarged
+  CountInset(EnlargedTurn part, const Rect& frame, double count_px)
+      : part_(std::move(part)), frame_(frame), count_px_(count_px) {}
+
+  bool shows(const Rational& time) const {
+    return time >= part_.span.from && time <= part_.span.to;
+  }
+  Point at(const Rational& time, const Integer& count) const {
+    const auto& [span, time_factor, count_factor, low, high] = part_;
+    const double across = to_double((time - span.from) / (span.to - span.from));
+    const double up = to_double(Rational(2 * count - low - high) * count_factor.value() / 2);
+    return {frame_.x + across * frame_.width, frame_.y + frame_.height / 2 - up * count_px_};
+  }
+
+  /// Says by how much time and count are enlarged, the first above the frame, the other below.
+  /// @returns false, and adds nothing, if a label is wider than `room_px`
+  bool add_labels(const Diagram& diagram, double room_px, std::vector<DrawItem>& items) const {
+    const FormulaSetter set = diagram.setter();
+    const double em = diagram.text_px();
+    const Color& color = diagram.palette().muted;
+    const Formula time = set.text("time ×" + part_.time_factor.text());
+    Formula count;
+    if (part_.count_factor.value() > 1) count = set.text("count ×" + part_.count_factor.text());
+    if (std::max(time.width_em(), count.width_em()) * em > room_px) return false;
+    const ItemId id = diagram.moving(0);
+    time.add_to(items, id, {frame_.x, frame_.y - kAboveInset_em * em}, em, color);
+    count.add_to(items, id, {frame_.x, frame_.bottom() + kBelowInset_em * em}, em, color);
+    return true;
+  }
+
+  /// The frame, and thin lines to the place that it enlarges.
+  void add_frame(const Diagram& diagram, const Point& from, std::vector<DrawItem>& items) const {
+    const Color& color = diagram.palette().muted;
+    const double em = diagram.text_px();
+    // The area below the curve must not be seen behind it and its labels.
+    items.emplace_back(RectangleItem{diagram.moving(0), frame_.grown(0, kLabel_em * em),
+                                     diagram.palette().background});
+    const bool is_left = frame_.x < from.x;
+    const double side = is_left ? frame_.right() : frame_.x;
+    const double half = (is_left ? kMarked_em : -kMarked_em) * em;
+    const auto add = [&](std::vector<Point> points) {
+      items.emplace_back(diagram.moving_line(0, std::move(points), color));
+    };
+    add({{side, frame_.y}, {from.x - half, from.y - std::abs(half)}});
+    add({{side, frame_.bottom()}, {from.x - half, from.y + std::abs(half)}});
+    for (const Rect& box :
+         {frame_, Rect{from.x - half, from.y - std::abs(half), 2 * half, 2 * std::abs(half)}}) {
+      std::vector<Point> around = box.corners();
+      around.push_back(around.front());
+      add(std::move(around));
+    }
+  }
+
+  /// The steps, each in the colour of the hit that makes it.
+  void add_steps(const Diagram& diagram, const PairLog& log, std::vector<DrawItem>& items) const {
+    const Palette& palette = diagram.palette();
+    const int columns = std::max(1, static_cast<int>(frame_.width));
+    const std::vector<CountPoint> points = count_curve(log, part_.span, columns);
+    const auto place_of = [&](const CountPoint& point) {
+      Point place = at(part_.span.from, point.count);
+      place.x += point.share * frame_.width;
+      return place;
+    };
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      Color color = palette.text;
+      if (points[i].share == points[i - 1].share) {
+        const bool is_wall = log.blocks_collision(points[i].count).kind == CollisionKind::wall;
+        color = is_wall ? palette.blue.line : palette.red.line;
+      }
+      items.emplace_back(diagram.moving_line(0, {place_of(points[i - 1]), place_of(points[i])},
+                                             color, diagram.data_width()));
+    }
+  }
+
+ private:
+  EnlargedTurn part_;
+  Rect frame_;
+  double count_px_;
+};
+
 class CountPanel {
  public:
   CountPanel(const DrawingContext& context, const PanelPlace& place)
@@ -138,8 +227,8 @@ class CountPanel {
       if (present <= strip.left) break;
       Points points = strip.whole;
       if (present < strip.right) points = area_under(strip.left, present);
-      items.emplace_back(PathItem{diagram_.moving(n), std::move(points), true,
-                                  diagram_.palette().shade, std::nullopt});
+      items.emplace_back(
+          PathItem{diagram_.moving(n), std::move(points), true, diagram_.palette().shade});
     }
     items.emplace_back(above_);
     if (!axis_.shows(time)) return;

@@ -23,14 +23,6 @@ constexpr double kSlack_px = 0.5;
 
 }  // namespace
 
-std::vector<Point> Circle::arc(double from, double to) const {
-  constexpr double kStep = 0.05;  // radians
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kStep)));
-  std::vector<Point> points;
-  for (int i = 0; i <= steps; ++i) points.push_back(at(from + (to - from) * i / steps));
-  return points;
-}
-
 PairState blocks_state(const State& state, const TwoBlocks& blocks) {
   const auto motion = [&](std::size_t body) {
     const auto& [position, velocity] = state.bodies[body];
@@ -95,17 +87,19 @@ std::vector<DrawItem> Diagram::title(std::size_t n, const std::vector<Formula>& 
   return items;
 }
 
-PhasedTitle::PhasedTitle(const Diagram& diagram, const Sentences& sentences, Counts counts)
+PhasedTitle::PhasedTitle(const Diagram& diagram, const Sentences& sentences, Integer before,
+                         Integer last)
     : before_(diagram.title(kFirst, sentences.before, diagram.palette().text, diagram.text_px())),
       during_(diagram.title(kFirst, sentences.during, diagram.palette().text, diagram.text_px())),
       after_(
           diagram.title(kFirst, sentences.after, diagram.palette().accent, diagram.sizes().title)),
-      counts_(std::move(counts)) {}
+      first_count_(std::move(before)),
+      last_count_(std::move(last)) {}
 
 void PhasedTitle::add(const Integer& count, std::vector<DrawItem>& items) const {
-  const std::vector<DrawItem>& title = count >= counts_.last    ? after_
-                                       : count > counts_.before ? during_
-                                                                : before_;
+  const std::vector<DrawItem>& title = count >= last_count_   ? after_
+                                       : count > first_count_ ? during_
+                                                              : before_;
   items.insert(items.end(), title.begin(), title.end());
 }
 
@@ -226,8 +220,7 @@ RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, const Poin
   return {
       diagram.moving(n),
       {std::round(present.x - width / 2), top, width, std::max(0.0, std::round(bottom()) - top)},
-      diagram.palette().accent,
-      std::nullopt};
+      diagram.palette().accent};
 }
 
 }  // namespace piblocks

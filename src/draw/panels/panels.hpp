@@ -2,14 +2,12 @@
 // In: a drawing context and the place of the panel. Out: a drawable.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/rounded.hpp"
 #include "draw/layout.hpp"
 #include "scene/schedule.hpp"
 
@@ -33,15 +31,12 @@ Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place);
 /// How near the count comes to a wrong digit of pi.
 /// @throws UsageError if the scene does not count pi, or the panel is too small.
 Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place);
-/// Both gaps against time; where there are other bodies, as positions_panel().
+/// Both gaps against time; of other bodies, where each block of a line is.
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions so far against time.
 Drawable count_panel(const DrawingContext& context, const PanelPlace& place);
 /// Bars of energy and momentum.
 Drawable conservation_panel(const DrawingContext& context, const PanelPlace& place);
-
-/// Where each block of a line is, against time.
-Drawable positions_panel(const DrawingContext& context, const PanelPlace& place);
 /// How many discs or blocks have which speed, and the distribution that Maxwell found.
 /// @throws UsageError if there are too few.
 Drawable speeds_panel(const DrawingContext& context, const PanelPlace& place);
@@ -54,19 +49,6 @@ Drawable separation_panel(const DrawingContext& context, const PanelPlace& place
 PairState blocks_state(const State& state, const TwoBlocks& blocks);
 /// Whether red comes, at least three collisions happen, and red goes while the scene is shown.
 bool shows_a_turn(const DrawingContext& context);
-
-struct Circle {
-  Point centre;
-  double radius = 0;
-
-  /// @param angle  counter-clockwise, from the right
-  Point at(double angle) const {
-    const auto [sine, cosine] = rounded::sin_cos(angle);
-    return {centre.x + radius * cosine, centre.y - radius * sine};
-  }
-  /// Points whose connecting lines are within 0.03 % of the radius.
-  std::vector<Point> arc(double from, double to) const;
-};
 
 // Of axes with figures below them, in ems.
 inline constexpr double kBelowAxis_em = 1.7;
@@ -102,7 +84,7 @@ class Diagram {
   // Add something that stays. Widths and dashes are in widths of the grid's lines.
   void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0) {
     const Stroke stroke{color, width * sizes_.grid_line, dash * sizes_.grid_line};
-    items_.emplace_back(PathItem{next_id(), std::move(points), false, std::nullopt, stroke});
+    items_.emplace_back(line_item(next_id(), std::move(points), stroke));
   }
   void shape(std::vector<Point> outline, const std::optional<Color>& fill,
              const std::optional<Color>& line = std::nullopt) {
@@ -129,8 +111,7 @@ class Diagram {
   ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }
   PathItem moving_line(std::size_t n, std::vector<Point> points, const Color& color,
                        double width = 1) const {
-    return {moving(n), std::move(points), false, std::nullopt,
-            Stroke{color, width * sizes_.grid_line}};
+    return line_item(moving(n), std::move(points), {color, width * sizes_.grid_line});
   }
   PathItem moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
                         const std::optional<Color>& line = std::nullopt) const {
@@ -139,17 +120,17 @@ class Diagram {
   /// More that stays, above the first `n` of the things that move.
   /// @throws UsageError as finish()
   PlateItem plate(std::size_t n, std::vector<DrawItem> items) const;
+  DiscItem dot(std::size_t n, const Point& at, const Color& color, double radius_px) const {
+    return {moving(n), at, radius_px, color, Stroke{palette_.background, sizes_.grid_line}};
+  }
   /// Marks the present.
   DiscItem dot(std::size_t n, const Point& at, const Color& color) const {
-    return {moving(n), at, kDotRadius * sizes_.grid_line, color,
-            Stroke{palette_.background, sizes_.grid_line}};
+    return dot(n, at, color, kDotRadius * sizes_.grid_line);
   }
 
   /// The same, larger, where it is the only one.
   DiscItem present_dot(std::size_t n, const Point& at) const {
-    DiscItem item = dot(n, at, palette_.accent);
-    item.radius = style::kPresentDot * sizes_.short_side;
-    return item;
+    return dot(n, at, palette_.accent, style::kPresentDot * sizes_.short_side);
   }
 
   /// All that stays as one item; nothing can be added to it any more.
@@ -163,7 +144,7 @@ class Diagram {
 
   PathItem shape_item(ItemId id, std::vector<Point> outline, const std::optional<Color>& fill,
                       const std::optional<Color>& line) const {
-    PathItem item{id, std::move(outline), true, fill, std::nullopt};
+    PathItem item{id, std::move(outline), true, fill};
     if (line) item.stroke = Stroke{*line, sizes_.grid_line};
     return item;
   }
@@ -196,12 +177,8 @@ class PhasedTitle {
     std::vector<Formula> during;
     std::vector<Formula> after = {};  ///< the last; in the accent, large if it has room
   };
-  struct Counts {
-    Integer before;  ///< collisions before the scene begins
-    Integer last;
-  };
-
-  PhasedTitle(const Diagram& diagram, const Sentences& sentences, Counts counts);
+  /// @param before  collisions before the scene begins @param last  the last collision
+  PhasedTitle(const Diagram& diagram, const Sentences& sentences, Integer before, Integer last);
 
   void add(const Integer& count, std::vector<DrawItem>& items) const;
 
@@ -211,7 +188,8 @@ class PhasedTitle {
   std::vector<DrawItem> before_;
   std::vector<DrawItem> during_;
   std::vector<DrawItem> after_;
-  Counts counts_;
+  Integer first_count_;
+  Integer last_count_;
 };
 
 class TimeAxis {

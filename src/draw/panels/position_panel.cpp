@@ -5,7 +5,6 @@
 #include <iterator>
 #include <numbers>
 
-#include "draw/number_text.hpp"
 #include "draw/panels/corner_path.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
@@ -38,12 +37,10 @@ constexpr std::array kContactPlaces{0.78, 0.7, 0.86, 0.62, 0.54};
 std::vector<Formula> titles_of_positions(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
   if (!shows_a_turn(context)) {
-    return {set.text("Both distances in their wedge"), set.text("Both distances"),
-            set.text("Positions")};
+    return set.texts({"Both distances in their wedge", "Both distances", "Positions"});
   }
-  return {set.text("The distances zigzag into the corner and out"),
-          set.text("A zigzag into the corner and out"), set.text("A zigzag in a wedge"),
-          set.text("Positions")};
+  return set.texts({"The distances zigzag into the corner and out",
+                    "A zigzag into the corner and out", "A zigzag in a wedge", "Positions"});
 }
 
 /// The path of both gaps runs back and forth between two lines: on one blue meets the wall, on the
@@ -57,8 +54,7 @@ class PositionPanel {
               std::max(1, static_cast<int>(diagram_.inside().width))),
         most_(path_.greatest_y2() > 0 ? path_.greatest_y2() : 1),
         least_share_(path_.least_y2() > 0 ? path_.least_y2() / most_ : kLeastShare),
-        zoom_(least_share_) {
-    zoom_.make_texts(context.setter());
+        zoom_(least_share_, context.setter()) {
     const GapWedge wedge(context.two_blocks().blocks());
     is_true_ = std::min(wedge.theta, std::numbers::pi / 2 - wedge.theta) >= kLeastAngle;
     place_wedge(is_true_ ? wedge.sine / wedge.cosine : 0);

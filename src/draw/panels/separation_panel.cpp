@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "draw/panels/panels.hpp"
@@ -59,7 +58,10 @@ class SeparationPanel {
  public:
   SeparationPanel(const DrawingContext& context, const PanelPlace& place)
       : meeting_(first_meeting(context.log, span_of(context.scene, context.log))),
-        diagram_(context, place, titles(context)),
+        diagram_(context, place,
+                 context.setter().texts(
+                     {"Squared distance of the centres: the discs touch at (r₁ + r₂)²",
+                      "Squared distance: touch at (r₁ + r₂)²", "Squared distance"})),
         axis_(context, diagram_, 0) {
     const System& system = context.scene.system;
     const double reach =
@@ -91,12 +93,6 @@ class SeparationPanel {
   static constexpr int kPoints = 240;
   /// Above the curves, for the name of what they show.
   static constexpr double kNameRoom_em = 1.3;
-
-  static std::vector<Formula> titles(const DrawingContext& context) {
-    const FormulaSetter set = context.setter();
-    return {set.text("Squared distance of the centres: the discs touch at (r₁ + r₂)²"),
-            set.text("Squared distance: touch at (r₁ + r₂)²"), set.text("Squared distance")};
-  }
 
   double square_of(const std::vector<Motion>& bodies) const {
     const Point apart = from_to(bodies[meeting_.first].position, bodies[meeting_.second].position);

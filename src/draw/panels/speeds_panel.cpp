@@ -104,8 +104,7 @@ class SpeedsPanel {
       const double top = std::round(y_of(density));
       items.emplace_back(RectangleItem{diagram_.moving(bin),
                                        {left, top, right - left, plot_.bottom() - top},
-                                       diagram_.palette().shade,
-                                       std::nullopt});
+                                       diagram_.palette().shade});
     }
     items.emplace_back(above_);
   }
@@ -125,9 +124,8 @@ class SpeedsPanel {
                        "'speeds' needs an energy within the range of a double (about 1.8e308); "
                        "leave the diagram out, or use less extreme velocities");
     }
-    const FormulaSetter set = context.setter();
-    return {set.text("The speeds approach Maxwell's curve"), set.text("Speeds and Maxwell's curve"),
-            set.text("Speeds")};
+    return context.setter().texts(
+        {"The speeds approach Maxwell's curve", "Speeds and Maxwell's curve", "Speeds"});
   }
 
   double y_of(double density) const {

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -19,36 +17,6 @@ constexpr double kNameTop_em = 0.78;     // of a name above its baseline
 constexpr double kNameBottom_em = 0.22;  // and below
 constexpr double kAroundName_em = 0.25;
 constexpr double kNameStep_em = 0.2;
-
-/// From a time and a gap to a place in the panel.
-using ToPlace = std::function<Point(double time, double gap)>;
-
-std::vector<Point> outline_of(const TrajectoryPiece& piece, const ToPlace& at) {
-  std::vector<Point> points;
-  if (piece.bands.empty()) {
-    for (const auto& [time, gaps] : piece.corners) points.push_back(at(time, gaps.y1));
-    return points;
-  }
-  for (const Band& band : piece.bands) {
-    points.push_back(at(band.from.time, band.high));
-    points.push_back(at(band.to.time, band.high));
-  }
-  points.push_back(at(piece.bands.back().to.time, 0));
-  points.push_back(at(piece.bands.front().from.time, 0));
-  return points;
-}
-
-std::vector<Point> red_line(const std::vector<TrajectoryPiece>& pieces, const ToPlace& at) {
-  std::vector<Point> points;
-  for (const TrajectoryPiece& piece : pieces) {
-    for (const auto& [time, gaps] : piece.corners) points.push_back(at(time, gaps.y2));
-    for (const Band& band : piece.bands) {
-      if (points.empty()) points.push_back(at(band.from.time, band.from.gaps.y2));
-      points.push_back(at(band.to.time, band.to.gaps.y2));
-    }
-  }
-  return points;
-}
 
 /// What each curve and name takes of each column of pixels, to place names beside the curves.
 class TakenColumns {
@@ -128,9 +96,9 @@ std::string capitalised(std::string name) {
 std::vector<Formula> titles_of_time(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
   const auto& [red, blue] = std::pair(context.palette.red, context.palette.blue);
-  const Formula red_name = set.text(capitalised(red.full_name)).colored(red.label);
-  const Formula blue_name = set.text(blue.full_name).colored(blue.label);
-  if (!shows_a_turn(context)) return {set.text("Distances from the wall"), set.text("Distances")};
+  const Formula red_name = set.text(capitalised(red.full_name())).colored(red.label);
+  const Formula blue_name = set.text(blue.full_name()).colored(blue.label);
+  if (!shows_a_turn(context)) return set.texts({"Distances from the wall", "Distances"});
   return {red_name + set.text(" turns around; ") + blue_name + set.text(" bounces between"),
           set.text(capitalised(red.name)).colored(red.label) + set.text(" turns; ") +
               set.text(blue.name).colored(blue.label) + set.text(" bounces"),
@@ -148,10 +116,9 @@ class TimePanel {
     const auto pieces = trajectory_of(context.two_blocks(), wedge_, axis_.span(), columns);
     top_ = greatest_y2(pieces);
     const Palette& palette = diagram_.palette();
-    const auto to_place = [this](double time, double gap) { return at(time, gap); };
     TakenColumns taken(axis_.plot());
     for (const TrajectoryPiece& piece : pieces) {
-      std::vector<Point> points = outline_of(piece, to_place);
+      std::vector<Point> points = outline_of(piece);
       taken.add(TakenColumns::blue, points);
       if (piece.bands.empty()) {
         diagram_.line(std::move(points), palette.blue.line, diagram_.data_width());
@@ -160,7 +127,7 @@ class TimePanel {
       }
     }
     // Red's line is over what blue covers.
-    std::vector<Point> red = red_line(pieces, to_place);
+    std::vector<Point> red = red_line(pieces);
     taken.add(TakenColumns::red, red);
     diagram_.line(std::move(red), palette.red.line, diagram_.data_width());
     axis_.add_base(diagram_);
@@ -183,6 +150,33 @@ class TimePanel {
   Point at(double time, double gap) const {
     const double share = top_ > 0 ? gap / top_ : 0;
     return {axis_.x_of(time), axis_.bottom() - share * axis_.plot().height};
+  }
+
+  std::vector<Point> outline_of(const TrajectoryPiece& piece) const {
+    std::vector<Point> points;
+    if (piece.bands.empty()) {
+      for (const auto& [time, gaps] : piece.corners) points.push_back(at(time, gaps.y1));
+      return points;
+    }
+    for (const Band& band : piece.bands) {
+      points.push_back(at(band.from.time, band.high));
+      points.push_back(at(band.to.time, band.high));
+    }
+    points.push_back(at(piece.bands.back().to.time, 0));
+    points.push_back(at(piece.bands.front().from.time, 0));
+    return points;
+  }
+
+  std::vector<Point> red_line(const std::vector<TrajectoryPiece>& pieces) const {
+    std::vector<Point> points;
+    for (const TrajectoryPiece& piece : pieces) {
+      for (const auto& [time, gaps] : piece.corners) points.push_back(at(time, gaps.y2));
+      for (const Band& band : piece.bands) {
+        if (points.empty()) points.push_back(at(band.from.time, band.from.gaps.y2));
+        points.push_back(at(band.to.time, band.to.gaps.y2));
+      }
+    }
+    return points;
   }
 
   /// Names both curves, and what they show, where nothing else is.
@@ -235,10 +229,98 @@ class TimePanel {
   double top_ = 0;  ///< red's greatest gap
 };
 
+/// More collisions than this for each column of pixels are not shown one by one.
+constexpr double kCornersPerColumn = 4;
+
+/// Where each block of a line is.
+class PositionsPanel {
+ public:
+  PositionsPanel(const DrawingContext& context, const PanelPlace& place)
+      : diagram_(context, place,
+                 context.setter().texts({"Where each block is: they collide where the bands meet",
+                                         "Each block's place against time", "Positions"})),
+        axis_(context, diagram_, 0),
+        low_(to_double(context.scene.view.x.low)),
+        high_(to_double(context.scene.view.x.high)) {
+    const System& system = context.scene.system;
+    const Span& span = axis_.span();
+    const double corners = kCornersPerColumn * std::max(1.0, std::ceil(axis_.plot().width));
+    const std::vector<std::vector<PathPoint>> paths =
+        context.log.paths(span.from, span.to, static_cast<std::size_t>(corners));
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      add_band(paths[i], to_double(system.bodies[i].size) / 2, context.colors[i]);
+    }
+    for (const Wall& wall : system.walls) {
+      const auto at = [&](const Rational& time) {
+        const Rational face = wall.point[0] + wall.velocity[0] * time;
+        return PathPoint{to_double(Rational(time - span.from)), {to_double(face), 0}};
+      };
+      diagram_.line(edge({at(span.from), at(span.to)}, 0), diagram_.palette().wall,
+                    diagram_.data_width());
+    }
+    axis_.add_base(diagram_);
+    diagram_.finish();
+  }
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    items.emplace_back(diagram_.item());
+    const double time = to_double(shown.time);
+    if (!axis_.shows(time)) return;
+    items.emplace_back(axis_.cursor(diagram_, 0, {axis_.x_of(time), axis_.plot().y}));
+    for (std::size_t i = 0; i < shown.state.bodies.size(); ++i) {
+      const double position = shown.state.bodies[i].position[0];
+      if (position < low_ || position > high_) continue;
+      items.emplace_back(
+          diagram_.dot(1 + i, {axis_.x_of(time), y_of(position)}, diagram_.palette().text));
+    }
+  }
+
+ private:
+  double y_of(double position) const {
+    const double share = std::clamp((position - low_) / (high_ - low_), 0.0, 1.0);
+    return axis_.bottom() - share * axis_.plot().height;
+  }
+
+  void add_band(const std::vector<PathPoint>& path, double half_width, const BlockColors& colors) {
+    std::vector<Point> outline = edge(path, half_width);
+    const std::vector<Point> lower = edge(path, -half_width);
+    outline.insert(outline.end(), lower.rbegin(), lower.rend());
+    diagram_.shape(std::move(outline), colors.fill, colors.edge);
+  }
+
+  /// An edge of a band, with a corner wherever it leaves the diagram.
+  std::vector<Point> edge(const std::vector<PathPoint>& path, double shift) const {
+    const double begin = to_double(axis_.span().from);
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const double time = begin + path[i].after;
+      const double position = path[i].position[0] + shift;
+      if (i > 0) {
+        const double earlier = begin + path[i - 1].after;
+        const double before = path[i - 1].position[0] + shift;
+        std::array ends = {low_, high_};
+        if (before > position) std::swap(ends[0], ends[1]);
+        for (const double end : ends) {
+          if ((before < end) == (position < end)) continue;
+          const double share = (end - before) / (position - before);
+          points.push_back({axis_.x_of(earlier + share * (time - earlier)), y_of(end)});
+        }
+      }
+      points.push_back({axis_.x_of(time), y_of(position)});
+    }
+    return points;
+  }
+
+  Diagram diagram_;
+  TimeAxis axis_;
+  double low_;
+  double high_;
+};
+
 }  // namespace
 
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
-  if (context.pair() == nullptr) return positions_panel(context, place);
+  if (context.pair() == nullptr) return {PositionsPanel(context, place)};
   return {TimePanel(context, place)};
 }
 

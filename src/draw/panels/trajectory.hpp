@@ -2,11 +2,8 @@
 // In: a system and its log. Out: gaps of states, and lines to draw for any number of collisions.
 #pragma once
 
-#include <piblocks/scene.hpp>
 #include <piblocks/two_blocks.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "core/rounded.hpp"

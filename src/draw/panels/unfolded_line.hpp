@@ -1,5 +1,6 @@
-// The unfolded wedges and the straight line through them, laid out in a rectangle.
-// In: a scene, its log, a rectangle. Out: where in pixels the line and its mirrors are.
+// The unfolded wedges and the straight line through them, laid out in a rectangle, and what panels
+// say about them.
+// In: a scene, its log, a rectangle. Out: where in pixels the line and its mirrors are; formulas.
 #pragma once
 
 #include <piblocks/scene.hpp>
@@ -121,5 +122,17 @@ class UnfoldedMap {
   bool is_exact_ = false;
   double across_ = 1;  ///< pixels across for the line's distance from the corner
 };
+
+/// The path is straight; in the end, how many mirrors it has crossed, and why.
+/// @param unfolds  whether mirrors appear one by one
+PhasedTitle::Sentences unfolded_sentences(const DrawingContext& context, bool unfolds);
+
+/// How many wedge angles fit into half a turn, as half_turn_text(); without digits in other bases.
+std::optional<Formula> half_turn_ratio(const DrawingContext& context);
+
+/// The wedge angle, as an expression and a number.
+Formula angle_note(const DrawingContext& context);
+/// How many of the mirrors are drawn; nothing if all are.
+std::optional<Formula> thinning_note(const FormulaSetter& set, const std::vector<Mirror>& mirrors);
 
 }  // namespace piblocks

@@ -8,7 +8,6 @@
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/unfolded_line.hpp"
-#include "draw/panels/unfolded_text.hpp"
 
 namespace piblocks {
 namespace {
@@ -58,16 +57,14 @@ class UnfoldedPanel {
         grid_px_(context.sizes.grid_line),
         unfolds_(place.panel == Panel::mirrors),
         title_(diagram_, unfolded_sentences(context, unfolds_),
-               {context.two_blocks().blocks_at(span_of(context.scene, context.log).from).count,
-                context.log.last()}),
+               context.two_blocks().blocks_at(span_of(context.scene, context.log).from).count,
+               context.log.last()),
         rows_(has_two_rows(diagram_) ? 2 : 1),
         map_(context.scene, context.two_blocks(), plot(), 2 * kPresentRadius * grid_px_,
              style::kProtractor * context.sizes.short_side),
         mirrors_(map_.mirrors(context.two_blocks(), kBetweenMirrors * grid_px_)),
         span_(span_of(context.scene, context.log)),
         size_(context.log.last()),
-        least_x_(map_.left() + kPresentRadius * grid_px_),
-        most_x_(map_.right() - kPresentRadius * grid_px_),
         from_x_(std::clamp(map_.x_at(span_.from), map_.left(), map_.right())) {
     add_notes(context);
     add_angle(context);
@@ -102,13 +99,9 @@ class UnfoldedPanel {
     for (std::size_t k = 0; k < dots_.size() && first_dot_ + k < next; ++k) {
       items.emplace_back(dots_[k]);
     }
-    if (x < least_x_ || x > most_x_) return;
-    const Palette& palette = diagram_.palette();
-    items.emplace_back(DiscItem{diagram_.moving(kPresent),
-                                {x, level()},
-                                kPresentRadius * grid_px_,
-                                palette.accent,
-                                Stroke{palette.background, grid_px_}});
+    const double radius = kPresentRadius * grid_px_;
+    if (x < map_.left() + radius || x > map_.right() - radius) return;
+    items.emplace_back(diagram_.dot(kPresent, {x, level()}, diagram_.palette().accent, radius));
   }
 
   /// Without the notes below it.
@@ -232,12 +225,9 @@ class UnfoldedPanel {
       const double radius =
           std::clamp(kDotShare * mirror->apart_px, kBandRadius * grid_px_, largest);
       const bool is_wall = mirror->kind == CollisionKind::wall;
-      DiscItem dot{diagram_.moving(kDots + dots_.size()),
-                   {mirror->x, map_.line_y()},
-                   radius,
-                   is_wall ? palette.blue.line : palette.red.line,
-                   std::nullopt};
-      if (radius == largest) dot.stroke = Stroke{palette.background, grid_px_};
+      DiscItem dot = diagram_.dot(kDots + dots_.size(), {mirror->x, map_.line_y()},
+                                  is_wall ? palette.blue.line : palette.red.line, radius);
+      if (radius < largest) dot.stroke.reset();
       dots_.push_back(dot);
     }
   }
@@ -288,8 +278,7 @@ class UnfoldedPanel {
     const double to = std::round(256 * std::clamp(x, map_.left(), map_.right())) / 256;
     const double width = 1.2 * diagram_.sizes().data_line;
     const Rect bounds{std::min(from, to), level() - width / 2, std::abs(to - from), width};
-    items.emplace_back(
-        RectangleItem{diagram_.moving(kLine), bounds, diagram_.palette().accent, std::nullopt});
+    items.emplace_back(RectangleItem{diagram_.moving(kLine), bounds, diagram_.palette().accent});
   }
 
   Diagram diagram_;
@@ -301,8 +290,6 @@ class UnfoldedPanel {
   std::vector<Mirror> mirrors_;
   Span span_;
   Integer size_;
-  double least_x_;  ///< from here to most_x_ the present is marked
-  double most_x_;
   double from_x_;                   ///< where the line that is shown begins
   PlateItem static_items_;          ///< all that stays, over the wedge
   std::vector<PathItem> unfolded_;  ///< the mirrors, if they unfold one by one

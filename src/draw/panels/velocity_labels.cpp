@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "core/rounded.hpp"
-#include "draw/panels/unfolded_text.hpp"
+#include "draw/panels/trajectory.hpp"
+#include "draw/panels/unfolded_line.hpp"
 
 namespace piblocks {
 namespace {
@@ -51,12 +52,6 @@ Formula arc_name(const FormulaSetter& set) { return set.text("2") + set.italic("
 
 Formula end_words(const FormulaSetter& set) { return set.text("no more hits here"); }
 
-bool is_ellipse_to_scale(const TwoBlocks& system) {
-  const Rational ratio = system.red.mass / system.blue.mass;
-  const Rational most = kMostLongEllipse * kMostLongEllipse;
-  return ratio <= most && ratio >= 1 / most;
-}
-
 /// Twice the kinetic energy of a block.
 Formula energy_name(const FormulaSetter& set, const char* index) {
   return set.lowered(set.italic("m"), set.text(index)) +
@@ -69,36 +64,6 @@ double widest_em(const std::vector<Formula>& lines) {
   return widest;
 }
 
-/// The room that is left around the circle.
-class FreeRoom {
- public:
-  explicit FreeRoom(const VelocityPlace& place) : place_(place) {}
-
-  bool is_free(const Rect& box) const {
-    const auto& [inside, circle, em] = place_;
-    if (!inside.holds(box)) return false;
-    const Point nearest{std::clamp(circle.centre.x, box.x, box.right()),
-                        std::clamp(circle.centre.y, box.y, box.bottom())};
-    const double slack = kAround_em * em;
-    if (length(nearest - circle.centre) < circle.radius + slack) return false;
-    const Rect wide = box.grown(slack, 0);
-    return std::ranges::none_of(taken_, [&](const Rect& other) { return wide.meets(other); });
-  }
-  bool is_free(const Formula& formula, const Point& at) const {
-    return is_free(box_of(formula, at));
-  }
-  void take(const Formula& formula, const Point& at) { taken_.push_back(box_of(formula, at)); }
-
- private:
-  Rect box_of(const Formula& formula, const Point& at) const {
-    const double em = place_.em;
-    return {at.x, at.y - kLabelTop * em, formula.width_em() * em, (kLabelTop + kLabelBottom) * em};
-  }
-
-  VelocityPlace place_;
-  std::vector<Rect> taken_;
-};
-
 /// Takes room for one label after the other.
 class VelocityLabeller {
  public:
@@ -110,22 +75,41 @@ class VelocityLabeller {
         inside_(place.inside),
         circle_(place.circle),
         em_(place.em),
-        points_(points),
-        room_(place) {}
+        points_(points) {}
 
   VelocityLabels run(const TwoBlocks& system, const std::vector<double>& angles) {
     add_axis_names();
     if (!points_.moves()) return std::move(made_);
     add_end();
-    const FreeRoom around_circle = room_;
-    add_energy(is_ellipse_to_scale(system));
-    room_ = around_circle;
+    const std::vector<Rect> around_circle = taken_;
+    add_energy(drawn_mass_ratio(system) == system.red.mass / system.blue.mass);
+    taken_ = around_circle;
     add_arc(angles);
     add_angle();
     return std::move(made_);
   }
 
  private:
+  /// Whether a box is beside the circle, and beside all that is written.
+  bool is_free(const Rect& box) const {
+    if (!inside_.holds(box)) return false;
+    const auto& [centre, radius] = circle_;
+    const Point nearest{std::clamp(centre.x, box.x, box.right()),
+                        std::clamp(centre.y, box.y, box.bottom())};
+    const double slack = kAround_em * em_;
+    if (length(nearest - centre) < radius + slack) return false;
+    const Rect wide = box.grown(slack, 0);
+    return std::ranges::none_of(taken_, [&](const Rect& other) { return wide.meets(other); });
+  }
+  bool is_free(const Formula& formula, const Point& at) const {
+    return is_free(box_of(formula, at));
+  }
+  void take(const Formula& formula, const Point& at) { taken_.push_back(box_of(formula, at)); }
+  Rect box_of(const Formula& formula, const Point& at) const {
+    return {at.x, at.y - kLabelTop * em_, formula.width_em() * em_,
+            (kLabelTop + kLabelBottom) * em_};
+  }
+
   double bottom() const { return inside_.bottom() - kLabelBottom * em_; }
   double beside_circle() const { return circle_.centre.x + circle_.radius + kToLabel * em_; }
   /// Where a text begins that ends at the right border.
@@ -138,7 +122,7 @@ class VelocityLabeller {
       const Formula scaled = scaled_name(set_, index);
       made_.labels.push_back({scaled, at, color, VelocityPart::circle});
       made_.labels.push_back({velocity_name(set_, index), at, color, VelocityPart::ellipse});
-      room_.take(scaled, at);
+      take(scaled, at);
     };
     const auto& [centre, radius] = circle_;
     add("1", {centre.x + kBesideAxis * em_, centre.y - radius - kBesideAxis * em_},
@@ -146,7 +130,7 @@ class VelocityLabeller {
     const Formula name = scaled_name(set_, "2");
     for (const Point& at :
          {Point{beside_circle(), centre.y + kMiddle * em_}, Point{at_right(name), bottom()}}) {
-      if (!room_.is_free(name, at)) continue;
+      if (!is_free(name, at)) continue;
       add("2", at, palette_.red.label);
       return;
     }
@@ -162,8 +146,8 @@ class VelocityLabeller {
     for (const Point& at :
          {Point{circle_.at(middle).x + kToLabel * em_, baseline}, Point{beside_circle(), baseline},
           Point{at_right(words), centre.y - radius}, Point{at_right(words), bottom()}}) {
-      if (!room_.is_free(words, at)) continue;
-      room_.take(words, at);
+      if (!is_free(words, at)) continue;
+      take(words, at);
       made_.labels.push_back({words, at, palette_.done, VelocityPart::end});
       return;
     }
@@ -201,10 +185,10 @@ class VelocityLabeller {
       const Point centre = Circle{circle_.centre, circle_.radius + away_em * em_}.at(middle);
       const Point at{centre.x - half_em * em_, centre.y + kMiddle * em_};
       const bool fits = std::ranges::all_of(arc, [&](const Point& point) {
-        return room_.is_free({point.x, point.y, 0, 0});
+        return is_free({point.x, point.y, 0, 0});
       });
-      if (!fits || !room_.is_free(name, at)) continue;
-      room_.take(name, at);
+      if (!fits || !is_free(name, at)) continue;
+      take(name, at);
       made_.arc = std::move(arc);
       made_.arc_from = from;
       made_.labels.push_back({name, at, palette_.text, VelocityPart::arcs});
@@ -224,7 +208,7 @@ class VelocityLabeller {
     for (const Point& at :
          {Point{beside_circle(), std::min(centre.y + kWordsBelow * radius, bottom())}, below,
           Point{at_right(note), bottom()}}) {
-      if (!room_.is_free(note, at)) continue;
+      if (!is_free(note, at)) continue;
       made_.labels.push_back({note, at, palette_.muted, VelocityPart::circle});
       return;
     }
@@ -264,9 +248,9 @@ class VelocityLabeller {
     for (const Point& at : {Point{beside, std::min(height, lowest)}, Point{below, lowest},
                             Point{inside_.x, lowest}}) {
       const Point next{at.x, at.y + step};
-      if (!room_.is_free(lines.front(), at) || !room_.is_free(lines.back(), next)) continue;
-      room_.take(lines.front(), at);
-      room_.take(lines.back(), next);
+      if (!is_free(lines.front(), at) || !is_free(lines.back(), next)) continue;
+      take(lines.front(), at);
+      take(lines.back(), next);
       return at;
     }
     return std::nullopt;
@@ -279,11 +263,45 @@ class VelocityLabeller {
   Circle circle_;
   double em_;
   const VelocityPoints& points_;
-  FreeRoom room_;
+  std::vector<Rect> taken_;
   VelocityLabels made_;
 };
 
 }  // namespace
+
+VelocityPoints::VelocityPoints(const Scene& scene, const PairLog& log)
+    : wedge_angle_(GapWedge(log.blocks()).theta), last_(log.last()) {
+  const TwoBlocks& system = log.blocks();
+  const Rational energy = twice_energy(log.system());
+  if (energy == 0) return;
+  moves_ = true;
+  red_factor_ = root_of(system.red.mass / energy);
+  blue_factor_ = root_of(system.blue.mass / energy);
+  Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
+  if (log.first_index() < 1 && has_span(scene, log)) {
+    const Rational from = span_of(scene, log).from;
+    if (from < 0) {
+      const PairState state = log.blocks_at(from);
+      before_ = std::min<Integer>(state.count, 0);
+      start = point_of(state.blue.velocity, state.red.velocity);
+    }
+  }
+  start_angle_ = rounded::atan2(start.y, start.x);
+  if (before_ < last_) first_ = log.blocks_collision(before_ + 1).kind;
+}
+
+std::vector<double> VelocityPoints::all_angles() const {
+  std::vector<double> angles{start_angle_};
+  for (Integer i = before_ + 1; i <= last_; ++i) {
+    angles.push_back(reflected(angles.back(), kind_of(i)));
+  }
+  return angles;
+}
+
+Rational drawn_mass_ratio(const TwoBlocks& system) {
+  constexpr long kMost = 12 * 12;  // a longer ellipse is drawn with axes of 12 to 1
+  return std::clamp<Rational>(system.red.mass / system.blue.mass, Rational(1, kMost), kMost);
+}
 
 VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set) {
   const Rect& inside = diagram.inside();

@@ -38,7 +38,7 @@ double arrow_room_px(const Sizes& sizes) {
 }
 
 /// Of the arrow above a block: the first of its shaft, its head and its figure.
-ItemId id_of(std::size_t body, std::size_t count) {
+ItemId arrow_id(std::size_t body, std::size_t count) {
   return nth(ItemId::velocities, kIds * (count - 1 - body));
 }
 
@@ -61,10 +61,9 @@ void add_arrow(const Arrow& arrow, std::vector<DrawItem>& items) {
   const Point along = (tip - tail) / length_px;
   const Point neck = tip - head * along;
   const Point aside = (along.x < 0 ? half_head : -half_head) * turned_right(along);
+  items.emplace_back(line_item(id, {tail, neck}, {color, line_px}));
   items.emplace_back(
-      PathItem{id, std::vector<Point>{tail, neck}, false, std::nullopt, Stroke{color, line_px}});
-  items.emplace_back(PathItem{nth(id, 1), std::vector<Point>{tip, neck + aside, neck - aside}, true,
-                              color, std::nullopt});
+      PathItem{nth(id, 1), std::vector<Point>{tip, neck + aside, neck - aside}, true, color});
 }
 
 struct Figure {
@@ -118,9 +117,7 @@ class BlockArrows {
         font_face_(context.font.face()),
         widths_(context.font, kNumberCharacters),
         lengths_(context.scene, context.log, context.layout),
-        line_px_(context.sizes.data_line),
-        short_side_(context.sizes.short_side),
-        text_px_(context.sizes.text) {
+        sizes_(context.sizes) {
     const System& system = context.scene.system;
     for (std::size_t i = system.bodies.size(); i-- > 0;) {
       if (system.bodies[i].mass) moving_.push_back(i);
@@ -138,13 +135,13 @@ class BlockArrows {
       if (has_figures_ && figure == figures.end()) continue;
       const double middle = layout_.at(shown.state.bodies[body].position[0], 0).x;
       const double half = lengths_.length_px(shown.state.bodies[body].velocity[0]) / 2;
-      const double y = foot_px_ - kShaft * short_side_;
-      const double head = kHead * short_side_;
-      add_arrow({id_of(body, count),
+      const double y = foot_px_ - kShaft * sizes_.short_side;
+      const double head = kHead * sizes_.short_side;
+      add_arrow({arrow_id(body, count),
                  {middle - half, y},
                  {middle + half, y},
                  colors_[body].line,
-                 1.5 * line_px_,
+                 1.5 * sizes_.data_line,
                  head,
                  head},
                 items);
@@ -171,7 +168,7 @@ class BlockArrows {
     const auto width = [&](std::size_t count) {
       return (double(count) * widths_.width_em(kUsualFigure) +
               double(count - 1) * kBetweenFigures_em) *
-             text_px_;
+             sizes_.text;
     };
     has_figures_ = !moving_.empty() && room_.width() >= width(moving_.size());
     if (has_figures_ || moving_.size() > kAlwaysFigures || moving_.empty()) return;
@@ -191,18 +188,18 @@ class BlockArrows {
       const double half = layout_.width_px(body) / 2;
       if (middle + half <= 0 || middle - half >= layout_.visible_right_px) continue;
       std::string text = rounded_text(shown.state.bodies[body].velocity[0]);
-      const double width = widths_.width_em(text) * text_px_;
+      const double width = widths_.width_em(text) * sizes_.text;
       const Point at{std::min(middle - width / 2, room_.right - width),
-                     foot_px_ - kVelocityBaseline * short_side_};
+                     foot_px_ - kVelocityBaseline * sizes_.short_side};
       figures.push_back({body,
-                         {nth(id_of(body, layout_.shapes.size()), 2), at, std::move(text), text_px_,
-                          text_color_, font_face_},
+                         {nth(arrow_id(body, layout_.shapes.size()), 2), at, std::move(text),
+                          sizes_.text, text_color_, font_face_},
                          width});
     }
     std::ranges::sort(figures, {}, [&](const Figure& figure) {
       return shown.state.bodies[figure.body].position[0];
     });
-    keep_apart(figures, room_, kBetweenFigures_em * text_px_);
+    keep_apart(figures, room_, kBetweenFigures_em * sizes_.text);
     return figures;
   }
 
@@ -212,9 +209,7 @@ class BlockArrows {
   Face font_face_;
   TextWidths widths_;
   ArrowLengths lengths_;
-  double line_px_;
-  double short_side_;
-  double text_px_;
+  Sizes sizes_;
   std::vector<std::size_t> moving_;  ///< bodies that collisions move, from the last to the first
   bool has_figures_ = true;
   Columns room_;        ///< of figures
@@ -292,7 +287,7 @@ double ArrowLengths::px_per_speed() const {
 
 std::optional<std::array<Point, 2>> arrow_in(const DrawList& list, std::size_t block,
                                              std::size_t count) {
-  const ItemId id = id_of(block, count);
+  const ItemId id = arrow_id(block, count);
   std::array<Point, 2> ends;
   std::size_t found = 0;
   for (const DrawItem& item : list.items) {

@@ -1,16 +1,10 @@
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
-#include <piblocks/two_blocks.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "draw/number_text.hpp"
-#include "draw/overlays/counter.hpp"
+#include "draw/overlays/overlays.hpp"
 #include "draw/stage/stage.hpp"
 
 namespace piblocks {
@@ -86,8 +80,7 @@ class ArticleBlocks {
   Palette palette_;
   std::vector<BlockColors> colors_;
   std::string lit_digits_;
-  int base_;                        ///< of counts
-  std::optional<Integer> endless_;  ///< the count that stands for infinitely many
+  int base_;  ///< of counts
   TextWidths widths_;
 };
 
@@ -180,8 +173,7 @@ PathItem article_wall(const Layout& layout, const View& view, const Color& color
   // Beside the face, so that the line is whole where a block touches it.
   const double x = top.x - side * line_px / 2;
   const double bottom = layout.at(0, to_double(view.y.low)).y;
-  return {ItemId::wall, std::vector<Point>{{x, top.y}, {x, bottom}}, false, std::nullopt,
-          Stroke{color, line_px, kDash * line_px}};
+  return line_item(ItemId::wall, {{x, top.y}, {x, bottom}}, {color, line_px, kDash * line_px});
 }
 
 std::vector<DrawItem> article_walls(const DrawingContext& context) {

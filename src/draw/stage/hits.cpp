@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "core/rounded.hpp"
 #include "draw/overlays/zoom.hpp"
 #include "draw/stage/stage.hpp"
 
@@ -18,7 +17,7 @@ constexpr double kFirstRadius = 0.3;
 constexpr double kRing = 0.4;
 /// Directions in which an arc is drawn: without the first and the last, it keeps clear of the
 /// bodies.
-constexpr std::size_t kDirections = 13;
+constexpr int kDirections = 13;
 /// An arc flashes in so many frames.
 constexpr double kFlash_frames = 2;
 constexpr double kNegligible_frames = 1e-6;
@@ -43,24 +42,6 @@ int glow_of(double hits_per_s) {
 
 double opacity_of_glow(int glow) {
   return kGlowAlpha * (kLeastGlow + (1 - kLeastGlow) * glow / (kGlows - 1));
-}
-
-/// From one angle to another, counter-clockwise from the right.
-std::vector<Point> directions_of(double from, double to) {
-  std::vector<Point> directions;
-  for (std::size_t i = 0; i < kDirections; ++i) {
-    const double angle = from + (to - from) * double(i) / double(kDirections - 1);
-    const auto [sine, cosine] = rounded::sin_cos(angle);
-    directions.push_back({cosine, -sine});
-  }
-  return directions;
-}
-
-/// Directions of the free corner at a contact, of length 1, counter-clockwise.
-std::vector<Point> directions_of(const Contact& contact) {
-  constexpr double kUp = std::numbers::pi / 2;
-  if (!contact.is_right_free && !contact.is_left_free) return directions_of(0, 4 * kUp);
-  return directions_of(contact.is_right_free ? 0 : kUp, contact.is_left_free ? 2 * kUp : kUp);
 }
 
 }  // namespace
@@ -96,10 +77,10 @@ void HitMarks::add_arc(std::size_t n, double age_s, const Contact& contact,
   const bool is_ring = !contact.is_left_free && !contact.is_right_free;
   const double left = 1 - age_s / kHitLife_s;  // of its life
   const double radius = (is_ring ? kRing : 1) * reach_px_ * (1 - (1 - kFirstRadius) * left * left);
-  std::vector<Point> arc;
-  for (const Point& direction : directions_of(contact)) {
-    arc.push_back(contact.at + radius * direction);
-  }
+  constexpr double kUp = std::numbers::pi / 2;
+  const double from = is_ring || contact.is_right_free ? 0 : kUp;
+  const double to = is_ring ? 4 * kUp : contact.is_left_free ? 2 * kUp : kUp;
+  std::vector<Point> arc = Circle{contact.at, radius}.arc(from, to, kDirections - 1);
   arc.pop_back();
   if (!is_ring) arc.erase(arc.begin());
   const Color color = is_flash(age_s) ? flash_ : faded(contact.color, left);
@@ -114,8 +95,7 @@ void HitMarks::add_edges(std::size_t n, double age_s, const std::optional<Rect>&
     items.emplace_back(RectangleItem{
         nth(ItemId::hits, kIdsOfHit * n + side),
         {x, block.y + corner_px_, line_px_, std::max(0.0, block.height - 2 * corner_px_)},
-        flash_,
-        std::nullopt});
+        flash_});
   };
   if (left) add(1, left->right() - line_px_, *left);
   if (right) add(2, right->x, *right);

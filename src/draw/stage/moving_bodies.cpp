@@ -1,11 +1,9 @@
-#include "draw/stage/moving_bodies.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
-#include "draw/layout.hpp"
+#include "draw/stage/stage.hpp"
 
 namespace piblocks {
 namespace {

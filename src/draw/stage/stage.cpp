@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
-
-#include "draw/stage/moving_bodies.hpp"
 
 namespace piblocks {
 namespace {
@@ -71,9 +68,8 @@ class Discs {
       std::vector<Point> points;
       for (const PathPoint& point : trails[i]) points.push_back(layout_.at(point.position));
       const double width_px = std::min(std::max(1.0, radius_px(i) / 2), data_line_px_);
-      items.emplace_back(PathItem{nth(ItemId::wall, kTrails + i), std::move(points), false,
-                                  std::nullopt,
-                                  Stroke{faded(colors_[i].fill, kTrailOpacity), width_px}});
+      items.emplace_back(line_item(nth(ItemId::wall, kTrails + i), std::move(points),
+                                   {faded(colors_[i].fill, kTrailOpacity), width_px}));
     }
   }
 
@@ -81,7 +77,7 @@ class Discs {
     const ItemId id = nth(ItemId::red_block, body);
     const Point centre = layout_.at(position);
     const double rim = rim_px(body);
-    if (rim == 0) return {id, centre, radius_px(body), colors_[body].fill, std::nullopt};
+    if (rim == 0) return {id, centre, radius_px(body), colors_[body].fill};
     return {id, centre, radius_px(body) - rim / 2, colors_[body].fill,
             Stroke{colors_[body].edge, rim}};
   }
@@ -101,14 +97,10 @@ std::vector<DrawItem> cover_of(const DrawingContext& context) {
   if (!background || layout.visible_right_px >= view.width_px) return {};
   const double left = layout.content_right_px;
   const double top = layout.top_px() - kWallAbove * context.sizes.short_side;
-  return {RectangleItem{nth(ItemId::blue_block, kCover),
-                        {left, 0, view.width_px - left, double(view.height_px)},
-                        background,
-                        std::nullopt},
-          RectangleItem{nth(ItemId::blue_block, kCover + 1),
-                        {left, top, context.sizes.grid_line, layout.wall_bottom_px - top},
-                        context.palette.grid,
-                        std::nullopt}};
+  const Rect cover{left, 0, view.width_px - left, double(view.height_px)};
+  const Rect line{left, top, context.sizes.grid_line, layout.wall_bottom_px - top};
+  return {RectangleItem{nth(ItemId::blue_block, kCover), cover, background},
+          RectangleItem{nth(ItemId::blue_block, kCover + 1), line, context.palette.grid}};
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 // In: a drawing context with its layout. Out: drawables, and what the loupe is made of too.
 #pragma once
 
+#include <piblocks/image.hpp>
+
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "draw/layout.hpp"
@@ -61,6 +65,24 @@ Drawable bodies(const DrawingContext& context);
 /// The article's picture of a line: blocks and counter.
 /// @param lit_digits  light up when the counter shows them in their places; may be empty
 Drawable article_blocks(const DrawingContext& context, std::string lit_digits);
+
+/// A body at the picture's instant. @see MovingShape
+struct PlacedBody {
+  ItemId id;
+  std::size_t body = 0;  ///< its number
+  std::variant<ExposedBlock, DiscItem> still;
+};
+
+/// Adds the bodies that stay, and one item of all others.
+/// @param bodies     in the order in which they are painted
+/// @param exposures  none if the picture is that of its instant
+void add_exposed(std::span<const PlacedBody> bodies, const Layout& map, const PixelRect& frame,
+                 std::span<const WeightedExposure> exposures, std::vector<DrawItem>& items);
+
+/// The two blocks of a closed form while the picture is exposed, as seen from their wall.
+/// @param red, blue  at its instant, without dwells
+ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const AxisPlace& axis,
+                                 std::span<const WeightedExposure> exposures);
 
 /// Adds all blocks as they are at the frame's instant, or exposed.
 void add_blocks(const FrameState& shown, const Layout& layout,
@@ -120,27 +142,11 @@ struct Hatch {
 inline constexpr Hatch kWallHatch = {style::kWallWidth, 0.02};
 inline constexpr Hatch kFloorHatch = {0.013, 0.03};
 
-/// Colours and widths of a face's line and of the strokes behind it.
-struct FaceStyle {
-  explicit FaceStyle(const DrawingContext& context)
-      : line(context.palette.wall),
-        strokes(context.palette.muted),
-        line_px(context.sizes.wall_line),
-        stroke_px(context.sizes.grid_line),
-        short_side(context.sizes.short_side) {}
-
-  Color line;
-  Color strokes;
-  double line_px;
-  double stroke_px;
-  double short_side;  ///< of the frame, in pixels
-};
-
 /// A hatched wall or floor, its face from one place to the other, with the bodies on the left of
 /// this way.
 /// @param beyond_px  how far the face's line is longer at both ends
-std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const FaceStyle& style,
-                                   const Hatch& hatch, double beyond_px = 0);
+std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const Palette& palette,
+                                   const Sizes& sizes, const Hatch& hatch, double beyond_px = 0);
 
 /// The walls of a layout, and the floor of a line.
 std::vector<DrawItem> stage_walls(const DrawingContext& context);

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <utility>
 
 #include "core/rounded.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels/panels.hpp"
 #include "draw/stage/stage.hpp"
 
 namespace piblocks {
@@ -52,7 +50,7 @@ PlateItem face_plate(ItemId id, const Point& from, const Point& to, const Drawin
   const double width = std::max(context.sizes.wall_line, hatch.width * context.sizes.short_side);
   const WallMap map(from, to);
   return plate_of(id, map.bounds(-1 - beyond_px, map.length + 1 + beyond_px, -1, width + 1),
-                  hatched_face(from, to, FaceStyle(context), hatch, beyond_px));
+                  hatched_face(from, to, context.palette, context.sizes, hatch, beyond_px));
 }
 
 /// Along a wall, from the first place to the second.
@@ -96,8 +94,8 @@ void add_angle(const WallMap& first, const WallMap& second, const DrawingContext
   const double turn = turn_of(-1 * first.along);
   const double angle = std::remainder(turn_of(second.along) - turn, 2 * std::numbers::pi);
   const Circle circle{second.from, kAngleArc * sizes.short_side};
-  items.emplace_back(PathItem{nth(ItemId::wall, items.size()), circle.arc(turn, turn + angle),
-                              false, std::nullopt, Stroke{context.palette.text, sizes.grid_line}});
+  items.emplace_back(line_item(nth(ItemId::wall, items.size()), circle.arc(turn, turn + angle),
+                               {context.palette.text, sizes.grid_line}));
   const std::string text = fmt::format("{:.3g}°", std::abs(angle) * 180 / std::numbers::pi);
   const double width = context.font.width_em(text) * sizes.text;
   const Point end_of_first = first(first.length - circle.radius, 0);
@@ -108,12 +106,9 @@ void add_angle(const WallMap& first, const WallMap& second, const DrawingContext
                         std::abs(upper.along.y) * width / 2 +
                         std::abs(upper.along.x) * sizes.text / 2;
   const Point centre = upper(is_first ? first.length - circle.radius : circle.radius, behind);
-  items.emplace_back(TextItem{nth(ItemId::wall, items.size()),
-                              {centre.x - width / 2, centre.y + kHalfFigure_em * sizes.text},
-                              text,
-                              sizes.text,
-                              context.palette.text,
-                              context.font.face()});
+  const Point origin{centre.x - width / 2, centre.y + kHalfFigure_em * sizes.text};
+  items.emplace_back(TextItem{nth(ItemId::wall, items.size()), origin, text, sizes.text,
+                              context.palette.text, context.font.face()});
 }
 
 /// Nothing if the view does not show it. @param walls  beside it, which cut it off
@@ -136,7 +131,8 @@ class MovingWalls {
       : walls_(context.scene.system.walls),
         view_(context.scene.view),
         layout_(context.layout),
-        style_(context),
+        palette_(context.palette),
+        sizes_(context.sizes),
         is_plane_(context.is_plane()) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -162,25 +158,26 @@ class MovingWalls {
     if (is_plane_) {
       const auto face = face_in_plane(wall, walls, view_, layout_);
       if (!face) return {};
-      return hatched_face(face->from, face->to, style_, kWallHatch, style_.line_px / 2);
+      return hatched_face(face->from, face->to, palette_, sizes_, kWallHatch, sizes_.wall_line / 2);
     }
     if (wall.point[0] < view_.x.low || wall.point[0] > view_.x.high) return {};
     const double face = to_double(wall.point[0]);
     const int side = sgn(wall.normal[0]);
     if (view_.theme == Theme::article) {
-      return {article_wall(layout_, view_, style_.line, face, side)};
+      return {article_wall(layout_, view_, palette_.wall, face, side)};
     }
     const double x = layout_.at(face, 0).x;
-    Point from{x, layout_.top_px() - kWallAbove * style_.short_side};
+    Point from{x, layout_.top_px() - kWallAbove * sizes_.short_side};
     Point to{x, layout_.wall_bottom_px};
     if (side < 0) std::swap(from, to);
-    return hatched_face(from, to, style_, kWallHatch);
+    return hatched_face(from, to, palette_, sizes_, kWallHatch);
   }
 
   std::vector<Wall> walls_;
   View view_;
   Layout layout_;
-  FaceStyle style_;
+  Palette palette_;
+  Sizes sizes_;
   bool is_plane_;
 };
 
@@ -288,11 +285,11 @@ Columns text_columns_between_walls(const DrawingContext& context) {
   return {left, right};
 }
 
-std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const FaceStyle& style,
-                                   const Hatch& hatch, double beyond_px) {
+std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const Palette& palette,
+                                   const Sizes& sizes, const Hatch& hatch, double beyond_px) {
   const WallMap at(from, to);
-  const double width = hatch.width * style.short_side;
-  const double line = style.line_px;
+  const double width = hatch.width * sizes.short_side;
+  const double line = sizes.wall_line;
   // The face hides the corners of a hatch's end.
   const double nearest = std::min(line / 2, width / 2);
   // In the same direction on all walls and floors that are level or upright.
@@ -301,25 +298,22 @@ std::vector<DrawItem> hatched_face(const Point& from, const Point& to, const Fac
     return at(is_level ? at.length - on : on, behind);
   };
   std::vector<DrawItem> items;
-  for (double s = 0; s < at.length + width; s += hatch.step * style.short_side) {
+  for (double s = 0; s < at.length + width; s += hatch.step * sizes.short_side) {
     // At 45 degrees, cut off at the wall's ends.
     const double begin = std::max(nearest, width - s);
     const double end = std::min(width, width + at.length - s);
     if (end <= begin) continue;
-    items.emplace_back(
-        PathItem{nth(ItemId::wall, items.size()),
-                 std::vector<Point>{end_at(s - width + begin, begin), end_at(s - width + end, end)},
-                 false, std::nullopt, Stroke{style.strokes, style.stroke_px}});
+    items.emplace_back(line_item(nth(ItemId::wall, items.size()),
+                                 {end_at(s - width + begin, begin), end_at(s - width + end, end)},
+                                 {palette.muted, sizes.grid_line}));
   }
   const ItemId id = nth(ItemId::wall, items.size());
   const double last = at.length + beyond_px;
   if (at.along.x == 0 || at.along.y == 0) {
-    items.emplace_back(
-        RectangleItem{id, at.bounds(-beyond_px, last, 0, line), style.line, std::nullopt});
+    items.emplace_back(RectangleItem{id, at.bounds(-beyond_px, last, 0, line), palette.wall});
   } else {
-    items.emplace_back(PathItem{id,
-                                std::vector<Point>{at(-beyond_px, line / 2), at(last, line / 2)},
-                                false, std::nullopt, Stroke{style.line, line}});
+    items.emplace_back(
+        line_item(id, {at(-beyond_px, line / 2), at(last, line / 2)}, {palette.wall, line}));
   }
   return items;
 }
