@@ -2,7 +2,6 @@
 #include <piblocks/error.hpp>
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "h264/parameter_sets.hpp"
@@ -13,57 +12,30 @@
 namespace piblocks {
 namespace {
 
-std::optional<SoundEncoder> sound_encoder(const OutputRequest& request,
-                                          const Container& container) {
-  if (!request.sound) return std::nullopt;
-  return std::optional<SoundEncoder>(std::in_place, container.sound, *request.sound);
-}
-
-/// What a file is made of. The functions of an output share it.
-struct LibavParts {
-  LibavParts(const OutputRequest& request, const Container& container, EncoderSetup setup)
-      : pictures(request.format, std::move(setup)), sound(sound_encoder(request, container)) {}
-
-  VideoEncoder pictures;
-  std::optional<SoundEncoder> sound;
-};
-
-/// The same with pictures by our own encoder.
-struct OwnParts {
-  OwnParts(const OutputRequest& request, const Container& container)
-      : pictures(request.format, request.settings),
-        stream(h264_stream(request.format, pictures.headers, pictures.level_idc)),
-        sound(sound_encoder(request, container)) {}
-
-  H264Stream pictures;
-  VideoStream stream;
-  std::optional<SoundEncoder> sound;
-};
-
-/// Adds the sound of `parts`, an LibavParts or OwnParts, to an output that has all else but its
-/// sink.
-template <typename Parts>
+/// Adds the sound to an output that has all else but its sink.
 Output with_file(Output output, const OutputRequest& request, const Container& container,
-                 const std::shared_ptr<const Parts>& parts, const VideoStream& stream) {
+                 std::shared_ptr<const VideoStream> stream) {
+  std::shared_ptr<const SoundEncoder> sound;
+  if (request.sound) sound = std::make_shared<const SoundEncoder>(container.sound, *request.sound);
   output.signature = fmt::format("{} by {}", container.muxer, output.signature);
-  output.open = [name = request.name, &container, parts, &stream](const Opening& /*opening*/) {
-    return open_video_file(name, container, stream, parts->sound ? &*parts->sound : nullptr);
+  output.open = [name = request.name, &container, stream = std::move(stream),
+                 sound](const Opening& /*opening*/) {
+    return open_video_file(name, container, *stream, sound.get());
   };
-  if (parts->sound) {
-    output.signature += ", sound by " + parts->sound->signature();
-    output.encode_sound = [parts](SampleSource& samples) { return parts->sound->encode(samples); };
+  if (sound) {
+    output.signature += ", sound by " + sound->signature();
+    output.encode_sound = [sound](SampleSource& samples) { return sound->encode(samples); };
   }
   return output;
 }
 
 Output encoded_output(const OutputRequest& request, const Container& container,
                       EncoderSetup setup) {
-  const auto parts = std::make_shared<const LibavParts>(request, container, std::move(setup));
-  return with_file({.frames_per_chunk = parts->pictures.frames_per_chunk(),
-                    .signature = parts->pictures.signature(),
-                    .make_encoder = [parts] { return libav_chunk_encoder(parts->pictures); },
-                    .open = {}},
-                   request, container, parts, parts->pictures.stream());
+  const auto encoder = std::make_shared<const VideoEncoder>(request.format, std::move(setup));
+  return with_file({.frames_per_chunk = encoder->frames_per_chunk(),
+                    .signature = encoder->signature(),
+                    .make_encoder = [encoder] { return libav_chunk_encoder(encoder); }},
+                   request, container, {encoder, &encoder->stream()});
 }
 
 /// H.264 in MP4 or MOV: our own, unless something is asked for that only libavcodec's encoders do.
@@ -75,35 +47,16 @@ Output h264_output(const OutputRequest& request, const Container& container) {
     output.notes = h264_notes(request.format);
     return output;
   }
-  const auto parts = std::make_shared<const OwnParts>(request, container);
+  const auto pictures = std::make_shared<const H264Stream>(request.format, request.settings);
   return with_file(
-      {.frames_per_chunk = parts->pictures.frames_per_chunk,
-       .signature = parts->pictures.signature(),
-       .make_encoder = [parts] { return h264_chunk_encoder(parts->pictures, h264_successor); },
-       .open = {},
+      {.frames_per_chunk = pictures->frames_per_chunk,
+       .signature = pictures->signature(),
+       .make_encoder = [pictures] { return h264_chunk_encoder(*pictures, h264_successor); },
        .notes = h264_notes(request.format)},
-      request, container, parts, parts->stream);
+      request, container,
+      std::make_shared<const VideoStream>(
+          h264_stream(request.format, pictures->headers, pictures->level_idc)));
 }
-
-/// Owns the encoder of the stream that its chunks are made for.
-class SuccessorEncoder final : public ChunkEncoder {
- public:
-  SuccessorEncoder(const VideoFormat& format, std::unique_ptr<const VideoEncoder> stream)
-      : ChunkEncoder(format), stream_(std::move(stream)), encoder_(libav_chunk_encoder(*stream_)) {}
-
-  void begin(std::int64_t first_frame) override { encoder_->begin(first_frame); }
-  void encode() override { encoder_->encode(); }
-  EncodedChunk finish() override { return encoder_->finish(); }
-  std::string method() const override { return stream_->name(); }
-
- private:
-  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
-    encoder_->take(frame, rects);
-  }
-
-  std::unique_ptr<const VideoEncoder> stream_;
-  std::unique_ptr<ChunkEncoder> encoder_;
-};
 
 }  // namespace
 
@@ -124,12 +77,12 @@ Output webm_output(const OutputRequest& request) {
 std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format,
                                              const h264::Config& config) {
   try {
-    auto stream =
-        std::make_unique<const VideoEncoder>(format, h264_setup(format, {}, {EncoderKind::h264}));
-    const AVCodecParameters& parameters = *stream->stream().parameters;
+    const auto encoder =
+        std::make_shared<const VideoEncoder>(format, h264_setup(format, {}, {EncoderKind::h264}));
+    const AVCodecParameters& parameters = *encoder->stream().parameters;
     const ByteSpan headers(parameters.extradata, std::size_t(parameters.extradata_size));
     if (!h264::may_follow(headers, config)) return nullptr;
-    return std::make_unique<SuccessorEncoder>(format, std::move(stream));
+    return libav_chunk_encoder(encoder, encoder->name());
   } catch (const UsageError&) {
     return nullptr;  // there is no encoder
   }
