@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "h264/encoder.hpp"
-#include "h264/mp4_index.hpp"
-#include "h264/mp4_sound.hpp"
-#include "h264/mp4_text.hpp"
+#include "h264/mp4_tracks.hpp"
 #include "h264/nal_unit.hpp"
 
 namespace piblocks::h264 {
