@@ -67,7 +67,7 @@ std::string no_preset(std::string_view encoder);
 class PacketPerFrameEncoder : public ChunkEncoder {
  public:
   using ChunkEncoder::ChunkEncoder;
-  void begin(std::int64_t first_frame) final { next_frame_ = first_frame; }
+  void begin(std::int64_t first_frame) override { next_frame_ = first_frame; }
   void encode() final;
   EncodedChunk finish() final { return std::exchange(chunk_, {}); }
 
