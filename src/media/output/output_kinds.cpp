@@ -10,9 +10,8 @@
 #include <string_view>
 
 #include "h264/mp4_writer.hpp"
-#include "media/output/picture_sequence.hpp"
 #include "media/pixels/yuv.hpp"
-#include "media/png/png_mark.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 namespace {

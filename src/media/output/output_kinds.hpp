@@ -5,6 +5,7 @@
 #include <piblocks/error.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -103,6 +104,16 @@ Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk
           .open = [name = request.name](
                       const Opening& /*opening*/) { return std::make_unique<StreamSink>(name); }};
 }
+
+/// Numbered pictures, each a file: how piblocks knows its own.
+struct PictureKind {
+  Bytes (*with_mark)(ByteSpan picture);
+  bool (*has_mark)(const std::filesystem::path& path);
+  std::string_view ending;  ///< the last bytes of every file
+};
+
+/// The sinks of an output. @throws UsageError if its name is no FramePattern.
+decltype(Output::open) sequence_of(const OutputRequest& request, const PictureKind& kind);
 
 // All throw UsageError if the kind cannot hold the format or does not take a setting.
 // src/media/README.md says what each kind holds.

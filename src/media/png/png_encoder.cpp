@@ -9,10 +9,8 @@
 #include <span>
 
 #include "media/output/output_kinds.hpp"
-#include "media/output/picture_sequence.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
-#include "media/png/png_mark.hpp"
 
 namespace piblocks {
 namespace {
