@@ -8,7 +8,6 @@
 #include "h264/callers_picture.hpp"
 #include "h264/encoder.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/av_versions.hpp"
 
 namespace piblocks::h264 {
 namespace {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "media/libav/av.hpp"
-#include "media/libav/av_versions.hpp"
 #include "media/libav/decoded_frame.hpp"
 
 extern "C" {

@@ -3,10 +3,13 @@
 // Only this folder includes libav. Pass AVFrame& and the like onward, never the owners.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -50,6 +53,18 @@ using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 /// @throws IoError, MediaError if it cannot be read.
 AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop = nullptr);
 
+/// An opened file. Reading it fails soon after a stop has been requested.
+struct VideoInput {
+  VideoInput(const std::string& path, std::stop_token token)
+      : stop(std::move(token)), file(open_av_input(path, &stop)) {}
+  ~VideoInput() = default;
+  VideoInput(const VideoInput&) = delete;
+  VideoInput& operator=(const VideoInput&) = delete;
+
+  std::stop_token stop;  // libavformat has its address
+  AvInputPtr file;
+};
+
 /// Returns the result of a call into libav, or throws if it is an error.
 /// @param operation  such as "open encoder", of the object.
 /// @throws IoError for errors of the system (disk full, pipe closed), std::bad_alloc if memory ran
@@ -74,5 +89,16 @@ void silence_av();
 std::string version_text(unsigned number);
 /// "giflib 5.2.1"
 std::string giflib_version();
+
+// What differs between the versions of libav that the program is built with, FFmpeg 5.1 to 7.1, in
+// av_versions.cpp: what an object holds, in whichever field this version keeps it.
+
+bool is_key_frame(const AVFrame& frame) noexcept;
+
+/// Those that an encoder takes; empty if it does not say.
+std::span<const AVPixelFormat> pixel_formats_of(const AVCodec& encoder) noexcept;
+
+/// The matrix of 9 numbers that a file asks players to turn its pictures by; null if it has none.
+const std::uint8_t* display_matrix_of(const AVStream& stream) noexcept;
 
 }  // namespace piblocks

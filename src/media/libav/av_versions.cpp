@@ -1,4 +1,4 @@
-#include "media/libav/av_versions.hpp"
+#include "media/libav/av.hpp"
 
 namespace piblocks {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/nearest_name.hpp"
-#include "media/libav/av_versions.hpp"
+#include "media/libav/av.hpp"
 #include "media/mp4/h264_chunk.hpp"
 
 extern "C" {

@@ -15,7 +15,7 @@
 
 #include "core/stop.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/video_reader.hpp"
+#include "media/libav/av_module.hpp"
 #include "media/pixels/animation.hpp"
 #include "media/pixels/frame_reader.hpp"
 
