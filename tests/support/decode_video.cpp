@@ -55,6 +55,14 @@ AvCodecContextPtr open_decoder(const AVStream& stream) {
 
 }  // namespace
 
+bool is_key_frame(const AVFrame& frame) noexcept {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(58, 29, 100)  // FFmpeg 6.1
+  return (frame.flags & AV_FRAME_FLAG_KEY) != 0;
+#else
+  return frame.key_frame != 0;
+#endif
+}
+
 DecodedStream decode_video(const std::filesystem::path& path,
                            const std::function<void(DecodedFrame&&)>& take) {
   silence_av();

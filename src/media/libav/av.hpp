@@ -93,8 +93,6 @@ std::string giflib_version();
 // What differs between the versions of libav that the program is built with, FFmpeg 5.1 to 7.1, in
 // av_versions.cpp: what an object holds, in whichever field this version keeps it.
 
-bool is_key_frame(const AVFrame& frame) noexcept;
-
 /// Those that an encoder takes; empty if it does not say.
 std::span<const AVPixelFormat> pixel_formats_of(const AVCodec& encoder) noexcept;
 

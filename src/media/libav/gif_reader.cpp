@@ -57,9 +57,7 @@ class GifReader final : public FrameReader {
       return true;
     }
   }
-  std::string layout() const override { return std::string(kRgba); }
   AnyImage samples() override { return *shown_; }
-  AnyImage rgb() override { return *shown_; }
 
  private:
   [[noreturn]] void fail(int error) const {

@@ -300,10 +300,8 @@ class PngReader final : public FrameReader {
     presentation_ = file.presentation();  // the chunk may follow the pixels
     return true;
   }
-  std::string layout() const override { return std::string(kRgba); }
   std::string presentation() const override { return presentation_; }
   AnyImage samples() override { return std::move(samples_); }
-  AnyImage rgb() override { return std::move(samples_); }
 
  private:
   fs::path path_;
