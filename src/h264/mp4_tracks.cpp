@@ -210,18 +210,10 @@ class SoundTrack : private TrackWriter {
                         std::max<std::uint64_t>(media_duration_, 1),
                     kMax32);
   }
-  /// In any second, which has so many packets or fewer.
   std::uint64_t max_rate_bps() const {
-    const auto whole = static_cast<std::size_t>(sound_.packet_samples);
-    const std::size_t window = (static_cast<std::size_t>(sound_.rate_hz) + whole - 1) / whole;
-    std::uint64_t most = 0;
-    std::uint64_t bytes = 0;
-    for (std::size_t i = 0; i < tables_.sizes.size(); ++i) {
-      bytes += tables_.sizes[i];
-      if (i >= window) bytes -= tables_.sizes[i - window];
-      most = std::max(most, bytes);
-    }
-    return std::min(8 * most, kMax32);
+    SecondWatch seconds((sound_.rate_hz + sound_.packet_samples - 1) / sound_.packet_samples);
+    for (const std::uint32_t size : tables_.sizes) seconds.take(size);
+    return std::min(8 * seconds.most_bytes(), kMax32);
   }
 
   const Mp4Sound& sound_;

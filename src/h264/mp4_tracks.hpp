@@ -5,7 +5,9 @@
 // them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -48,6 +50,29 @@ std::vector<std::uint8_t> make_index(const TrackFacts& track, const PictureTable
                                      const MovieFacts& movie);
 /// The size of its largest, for max_pictures pictures and max_key_frames key frames.
 std::uint64_t index_room(const TrackFacts& track);
+
+/// The most bytes that begin within a second.
+class SecondWatch {
+ public:
+  /// @param samples  that begin in a second
+  explicit SecondWatch(std::int64_t samples) : samples_(static_cast<std::size_t>(samples)) {}
+  void take(std::uint64_t size_bytes) {
+    sizes_.push_back(size_bytes);
+    sum_ += size_bytes;
+    if (sizes_.size() > samples_) {
+      sum_ -= sizes_.front();
+      sizes_.pop_front();
+    }
+    most_ = std::max(most_, sum_);
+  }
+  std::uint64_t most_bytes() const noexcept { return most_; }
+
+ private:
+  std::size_t samples_;
+  std::deque<std::uint64_t> sizes_;
+  std::uint64_t sum_ = 0;
+  std::uint64_t most_ = 0;
+};
 
 /// The packets, in order.
 struct SoundTables {

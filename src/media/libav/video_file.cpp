@@ -227,32 +227,25 @@ class VideoFile final : public FrameSink {
   std::optional<h264::LevelWatch> levels_;  // of H.264
 };
 
+constexpr Container mp4_or_mov(const char* muxer, const SoundCodec& sound) {
+  return {.muxer = muxer,
+          .index_option = "movflags",
+          .index_value = "+faststart",
+          .time_scale_option = "movie_timescale",
+          .is_whole = is_whole_mov,
+          .sound = sound};
+}
+
 }  // namespace
 
-const Container kMp4 = {.muxer = "mp4",
-                        .index_option = "movflags",
-                        .index_value = "+faststart",
-                        .time_scale_option = "movie_timescale",
-                        .is_whole = is_whole_mov,
-                        .sound = kAac,
-                        .encoders = {EncoderKind::h264}};
-const Container kMov = [] {
-  Container mov = kMp4;
-  mov.muxer = "mov";
-  mov.encoders.push_back(EncoderKind::prores);
-  return mov;
-}();
-const Container kEditorMov = [] {
-  Container mov = kMov;
-  mov.sound = kPcm;
-  return mov;
-}();
+const Container kMp4 = mp4_or_mov("mp4", kAac);
+const Container kMov = mp4_or_mov("mov", kAac);
+const Container kEditorMov = mp4_or_mov("mov", kPcm);
 const Container kWebm = {.muxer = "webm",
                          .index_option = "cues_to_front",
                          .index_value = "1",
                          .is_whole = is_whole_webm,
                          .sound = kOpus,
-                         .encoders = {EncoderKind::webm},
                          .sound_from_zero = true};
 
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const Container& container,

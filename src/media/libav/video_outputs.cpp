@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "h264/parameter_sets.hpp"
 #include "media/libav/video_encoder.hpp"
@@ -39,10 +40,12 @@ Output encoded_output(const OutputRequest& request, const Container& container,
 }
 
 /// H.264 in MP4 or MOV: our own, unless something is asked for that only libavcodec's encoders do.
-Output h264_output(const OutputRequest& request, const Container& container) {
+/// @param kinds  of the encoders that may be asked for
+Output h264_output(const OutputRequest& request, const Container& container,
+                   const std::vector<EncoderKind>& kinds) {
   check_duration_of_frame(request.format.frame_rate);
   if (!is_builtin(request.settings)) {
-    EncoderSetup setup = h264_setup(request.format, request.settings, container.encoders);
+    EncoderSetup setup = h264_setup(request.format, request.settings, kinds);
     Output output = encoded_output(request, container, std::move(setup));
     output.notes = h264_notes(request.format);
     return output;
@@ -60,11 +63,13 @@ Output h264_output(const OutputRequest& request, const Container& container) {
 
 }  // namespace
 
-Output mp4_output_by_libav(const OutputRequest& request) { return h264_output(request, kMp4); }
+Output mp4_output_by_libav(const OutputRequest& request) {
+  return h264_output(request, kMp4, {EncoderKind::h264});
+}
 
 Output mov_output(const OutputRequest& request) {
   if (!request.format.has_alpha && request.settings.encoder != kProres) {
-    return h264_output(request, kMov);
+    return h264_output(request, kMov, {EncoderKind::h264, EncoderKind::prores});
   }
   check_duration_of_frame(request.format.frame_rate);
   return encoded_output(request, kEditorMov, prores_setup(request.format, request.settings));
