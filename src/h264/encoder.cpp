@@ -8,19 +8,20 @@
 #include "h264/parameter_sets.hpp"
 #include "h264/picture.hpp"
 #include "h264/picture_encoder.hpp"
-#include "h264/text.hpp"
 
 namespace piblocks::h264 {
 namespace {
 
 void require(std::string_view field, std::int64_t value, std::int64_t least, std::int64_t most) {
   if (least <= value && value <= most) return;
-  throw Error(text("h264: ", field, " is ", value, ", not in [", least, ", ", most, "]"));
+  throw Error("h264: " + std::string(field) + " is " + std::to_string(value) + ", not in [" +
+              std::to_string(least) + ", " + std::to_string(most) + "]");
 }
 
 void require_side(std::string_view field, int value) {
   require(field, value, 2, std::int64_t{kLumaSide} * kMaxSide_mb);
-  if (value % 2 != 0) throw Error(text("h264: ", field, " is ", value, ", which is odd"));
+  if (value % 2 == 0) return;
+  throw Error("h264: " + std::string(field) + " is " + std::to_string(value) + ", which is odd");
 }
 
 PictureRate rate_of(const Config& config) {
@@ -58,7 +59,8 @@ void Encoder::take(const Planes& part, const Rect& rect) {
   }
   for (const int number : {rect.x_px, rect.y_px, rect.width_px, rect.height_px}) {
     if (number >= 0 && number % 2 == 0) continue;
-    throw Error(text("h264: a rectangle has the number ", number, ", which is odd or below 0"));
+    throw Error("h264: a rectangle has the number " + std::to_string(number) +
+                ", which is odd or below 0");
   }
   pictures_->take(part, rect);
 }

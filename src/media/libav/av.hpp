@@ -87,8 +87,6 @@ void silence_av();
 
 /// "59.37.100" for the result of avcodec_version() and the like.
 std::string version_text(unsigned number);
-/// "giflib 5.2.1"
-std::string giflib_version();
 
 // What differs between the versions of libav that the program is built with, FFmpeg 5.1 to 7.1, in
 // av_versions.cpp: what an object holds, in whichever field this version keeps it.

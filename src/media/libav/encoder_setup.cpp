@@ -12,6 +12,7 @@
 
 #include "core/nearest_name.hpp"
 #include "media/libav/av.hpp"
+#include "media/libav/sound_stream.hpp"
 #include "media/mp4/h264_chunk.hpp"
 
 extern "C" {
@@ -198,7 +199,7 @@ std::string crf_problem(double crf) {
 }
 
 std::string missing_encoder(const std::optional<std::string>& name) {
-  const std::vector<std::string> usable = usable_webm_encoders();
+  const std::vector<std::string> usable = usable_encoders(EncoderKind::webm);
   const std::string wanted = name.value_or("vp9");
   return fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}{}", wanted,
                      fmt::join(usable, ", "), did_you_mean(wanted, usable));
@@ -214,18 +215,30 @@ void set_up(AVCodecContext& context, const WebmEncoder& encoder, const EncoderSe
 }  // namespace
 
 std::vector<std::string> usable_encoders(EncoderKind kind) {
+  std::vector<std::string> names;
   switch (kind) {
     case EncoderKind::h264:
-      return usable_h264_encoders();
+      names = software_encoders();
+      names.emplace(names.begin(), kBuiltin);
+      break;
     case EncoderKind::webm:
-      return usable_webm_encoders();
+      for (const WebmEncoder& encoder : kEncoders) {
+        const auto set_up_default = [&](AVCodecContext& context) { set_up(context, encoder, {}); };
+        const AVCodec* const codec = codec_of(encoder);
+        if (codec == nullptr || !can_be_opened(*codec, set_up_default)) continue;
+        names.emplace_back(encoder.name);
+      }
+      break;
     case EncoderKind::prores:
-      if (avcodec_find_encoder_by_name(kProres.data()) == nullptr) return {};
-      return {std::string(kProres)};
+      if (avcodec_find_encoder_by_name(kProres.data()) != nullptr) names.emplace_back(kProres);
+      break;
     case EncoderKind::sound:
-      return usable_sound_encoders();
+      for (const SoundCodec& codec : {kAac, kOpus}) {
+        if (avcodec_find_encoder_by_name(codec.name) != nullptr) names.emplace_back(codec.name);
+      }
+      break;
   }
-  return {};
+  return names;
 }
 
 std::vector<std::string> usable_encoders(std::span<const EncoderKind> kinds) {
@@ -281,12 +294,6 @@ EncoderSetup prores_setup(const VideoFormat& format, const EncoderSettings& sett
           .alternatives = {EncoderKind::prores}};
 }
 
-std::vector<std::string> usable_h264_encoders() {
-  std::vector<std::string> names = software_encoders();
-  names.emplace(names.begin(), kBuiltin);
-  return names;
-}
-
 EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settings,
                         const std::vector<EncoderKind>& kinds) {
   const AVCodec* codec = nullptr;
@@ -307,16 +314,6 @@ EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settin
       .frames_per_chunk = frames_in_a_second(format.frame_rate),
       .apply = [codec, settings](AVCodecContext& context) { set_up(context, *codec, settings); },
       .alternatives = kinds};
-}
-
-std::vector<std::string> usable_webm_encoders() {
-  std::vector<std::string> names;
-  for (const WebmEncoder& encoder : kEncoders) {
-    const auto set_up_default = [&](AVCodecContext& context) { set_up(context, encoder, {}); };
-    const AVCodec* const codec = codec_of(encoder);
-    if (codec != nullptr && can_be_opened(*codec, set_up_default)) names.emplace_back(encoder.name);
-  }
-  return names;
 }
 
 EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settings) {
