@@ -29,10 +29,6 @@ struct Container {
 };
 
 extern const Container kMp4;
-extern const Container kMov;
-/// For ProRes.
-extern const Container kEditorMov;
-extern const Container kWebm;
 
 /// @param pictures  must outlive the sink.
 /// @param sound     its encoder, or null; must outlive the sink.
