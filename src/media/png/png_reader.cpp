@@ -271,13 +271,6 @@ AnyImage samples_of(PngFile& file) {
   return file.read_flat();
 }
 
-void refuse_animation(const PngFile& file, const fs::path& path) {
-  if (!file.is_animated()) return;
-  throw MediaError(fmt::format(
-      "png: cannot read '{}' as one picture: it is animated; compare it by itself, as a video",
-      path.string()));
-}
-
 /// One frame.
 class PngReader final : public FrameReader {
  public:
@@ -295,7 +288,11 @@ class PngReader final : public FrameReader {
       }
     }
     PngFile file = place_ == Place::in_memory ? file_in_memory(path_, file_) : PngFile(path_);
-    refuse_animation(file, path_);
+    if (file.is_animated()) {
+      throw MediaError(fmt::format(
+          "png: cannot read '{}' as one picture: it is animated; compare it by itself, as a video",
+          path_.string()));
+    }
     samples_ = samples_of(file);
     presentation_ = file.presentation();  // the chunk may follow the pixels
     return true;
@@ -330,12 +327,6 @@ std::string presentation_by_exif(ByteSpan exif) {
 }
 
 Image read_png(const fs::path& path) { return PngFile(path).read_flat(); }
-
-AnyImage read_png_samples(const fs::path& path) {
-  PngFile file(path);
-  refuse_animation(file, path);
-  return samples_of(file);
-}
 
 AnyImage read_png_samples(const fs::path& path, std::span<const std::uint8_t> bytes) {
   PngFile png = file_in_memory(path, bytes);
