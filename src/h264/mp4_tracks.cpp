@@ -222,29 +222,26 @@ class SoundTrack : private TrackWriter {
 };
 
 /// How the texts look (3GPP TS 26.245, 5.16): white, centred below, as high as subtitles are.
-class TextDescription : public TrackWriter {
- public:
-  void put_sample_entry(std::uint64_t width_px, std::uint64_t height_px) {
-    put(0, 4);     // displayFlags
-    put(1, 1);     // horizontal: centred
-    put(0xff, 1);  // vertical: at the bottom
-    put(0, 4);     // background: none
-    put(0, 4);     // the box: from above and left
-    put(height_px, 2);
-    put(width_px, 2);
-    put(0, 4);  // style of all characters
-    put(1, 2);  // font
-    put(0, 1);
-    put(std::clamp<std::uint64_t>(height_px / 20, 8, 255), 1);
-    put(0xffffffff, 4);
-    box("ftab", [&] {
-      put(1, 2);
-      put(1, 2);
-      put(10, 1);
-      put("Sans-Serif");
-    });
-  }
-};
+void put_text_entry(std::uint64_t width_px, std::uint64_t height_px, TrackWriter& track) {
+  track.put(0, 4);     // displayFlags
+  track.put(1, 1);     // horizontal: centred
+  track.put(0xff, 1);  // vertical: at the bottom
+  track.put(0, 4);     // background: none
+  track.put(0, 4);     // the box: from above and left
+  track.put(height_px, 2);
+  track.put(width_px, 2);
+  track.put(0, 4);  // style of all characters
+  track.put(1, 2);  // font
+  track.put(0, 1);
+  track.put(std::clamp<std::uint64_t>(height_px / 20, 8, 255), 1);
+  track.put(0xffffffff, 4);
+  track.box("ftab", [&] {
+    track.put(1, 2);
+    track.put(1, 2);
+    track.put(10, 1);
+    track.put("Sans-Serif");
+  });
+}
 
 }  // namespace
 
@@ -310,9 +307,9 @@ std::vector<std::uint8_t> TextTrack::make(std::uint64_t id, std::uint64_t offset
                   .group = 2,
                   .width_px = static_cast<std::uint64_t>(track_.width_px),
                   .height_px = static_cast<std::uint64_t>(track_.height_px)};
-  TextDescription track;
+  TrackWriter track;
   const auto put_tables = [&] {
-    track.put_description("tx3g", [&] { track.put_sample_entry(head.width_px, head.height_px); });
+    track.put_description("tx3g", [&] { put_text_entry(head.width_px, head.height_px, track); });
     track.box("stts", [&] {
       track.put_all({0, starts_.size()});
       for (std::size_t i = 0; i < starts_.size(); ++i) {

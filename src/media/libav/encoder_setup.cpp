@@ -69,11 +69,8 @@ const AVCodec& find_encoder(const std::optional<std::string>& name,
         "video: cannot find an H.264 encoder in libavcodec; install Debian's package libavcodec59 "
         "(or libavcodec-extra), which brings libx264, or write *.y4m or *.png");
   }
-  for (const EncoderKind kind : kinds) {
-    if (std::ranges::count(usable_encoders(kind), *name) == 0) continue;
-    return *avcodec_find_encoder_by_name(name->c_str());
-  }
   const std::vector<std::string> usable = usable_encoders(kinds);
+  if (std::ranges::count(usable, *name) > 0) return *avcodec_find_encoder_by_name(name->c_str());
   throw UsageError(fmt::format("video: cannot use encoder '{}'; use one of: {}{}", *name,
                                fmt::join(usable, ", "), did_you_mean(*name, usable)));
 }
