@@ -1,6 +1,6 @@
 // Everything that needs libav or giflib, loaded when it is first asked for.
 // libavcodec brings some 90 libraries with it, which take 15 ms to load: a still, a count or a PNG
-// sequence does without. libavformat comes later still (avformat_calls.hpp).
+// sequence does without. libavformat comes later still (av.hpp).
 #pragma once
 
 #include <piblocks/encode.hpp>

@@ -33,14 +33,11 @@ constexpr double kX264Crf = 21;
 /// For encoders without constant quality: generous for flat shapes.
 constexpr double kBitsPerPixel = 0.1;
 
-bool takes_yuv420p(const AVCodec& codec) {
-  return std::ranges::count(pixel_formats_of(codec), AV_PIX_FMT_YUV420P) > 0;
-}
-
 bool is_software_h264(const AVCodec& codec) {
   constexpr int kHardware = AV_CODEC_CAP_HARDWARE | AV_CODEC_CAP_HYBRID;
   return av_codec_is_encoder(&codec) != 0 && codec.id == AV_CODEC_ID_H264 &&
-         (codec.capabilities & kHardware) == 0 && takes_yuv420p(codec);
+         (codec.capabilities & kHardware) == 0 &&
+         std::ranges::count(pixel_formats_of(codec), AV_PIX_FMT_YUV420P) > 0;
 }
 
 /// libavcodec's, the default first.

@@ -79,24 +79,20 @@ constexpr std::int64_t kMaxFile_bytes = 0xFFFFFFFF;
 Bytes header(const SoundFormat& sound) {
   constexpr int kPcm = 1;
   const std::int64_t data_bytes = sound.size * kPair_bytes;
-  struct Field {
-    std::string_view text;  // before the number
-    std::int64_t value;
-    std::size_t size_bytes;
-  };
   Bytes bytes;
-  for (const Field& field : {Field{"RIFF", kHeader_bytes - 8 + data_bytes, 4},
-                             {"WAVEfmt ", 16, 4},
-                             {"", kPcm, 2},
-                             {"", kChannels, 2},
-                             {"", sound.rate_hz, 4},
-                             {"", std::int64_t{sound.rate_hz} * kPair_bytes, 4},
-                             {"", kPair_bytes, 2},
-                             {"", 8 * kSample_bytes, 2},
-                             {"data", data_bytes, 4}}) {
-    append(bytes, field.text);
-    append_little_endian(bytes, std::uint64_t(field.value), field.size_bytes);
-  }
+  const auto put = [&](std::string_view text, std::int64_t value, std::size_t size_bytes) {
+    append(bytes, text);
+    append_little_endian(bytes, std::uint64_t(value), size_bytes);
+  };
+  put("RIFF", kHeader_bytes - 8 + data_bytes, 4);
+  put("WAVEfmt ", 16, 4);
+  put("", kPcm, 2);
+  put("", kChannels, 2);
+  put("", sound.rate_hz, 4);
+  put("", std::int64_t{sound.rate_hz} * kPair_bytes, 4);
+  put("", kPair_bytes, 2);
+  put("", 8 * kSample_bytes, 2);
+  put("data", data_bytes, 4);
   return bytes;
 }
 
