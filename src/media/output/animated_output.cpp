@@ -68,11 +68,6 @@ PixelRect ChangedPicture::changed() const noexcept {
   return {.x_px = left_, .y_px = top_, .width_px = right_ - left_, .height_px = bottom_ - top_};
 }
 
-void AnimationEncoder::begin(std::int64_t first_frame) {
-  PacketPerFrameEncoder::begin(first_frame);
-  picture_.settle();  // the frame before; nothing follows from it in frame 0
-}
-
 Bytes AnimationEncoder::encode_picture(std::int64_t number) {
   if (number == 0) picture_.mark_all();
   const bool has_image = picture_.has_changed() || number % most_frames_ == 0;

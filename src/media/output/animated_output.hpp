@@ -67,7 +67,10 @@ class AnimationEncoder : public PacketPerFrameEncoder {
       : PacketPerFrameEncoder(format),
         most_frames_(longest),
         picture_(format.width_px, format.height_px, format.has_alpha) {}
-  void begin(std::int64_t first_frame) final;
+  void begin(std::int64_t first_frame) final {
+    PacketPerFrameEncoder::begin(first_frame);
+    picture_.settle();  // the frame before; nothing follows from it in frame 0
+  }
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) final {

@@ -186,18 +186,6 @@ void check_duration_of_frame(const Rational& frame_rate) {
                   frame_rate.get_str(), longest_s.get_str()));
 }
 
-void PacketPerFrameEncoder::encode() {
-  const std::int64_t number = next_frame_++;
-  chunk_.push_back({.bytes = encode_picture(number), .pts = number, .dts = number});
-}
-
-void StreamSink::append(const EncodedChunk& chunk) {
-  counter_.take(chunk);
-  for (const Packet& packet : chunk) file_.write(packet.bytes);
-}
-
-void StreamSink::finish() { file_.finish(); }
-
 std::unique_ptr<PacketSource> pcm_packets(SampleSource& samples) {
   return std::make_unique<PcmPackets>(samples);
 }

@@ -69,7 +69,10 @@ class PacketPerFrameEncoder : public ChunkEncoder {
  public:
   using ChunkEncoder::ChunkEncoder;
   void begin(std::int64_t first_frame) override { next_frame_ = first_frame; }
-  void encode() final;
+  void encode() final {
+    const std::int64_t number = next_frame_++;
+    chunk_.push_back({.bytes = encode_picture(number), .pts = number, .dts = number});
+  }
   EncodedChunk finish() final { return std::exchange(chunk_, {}); }
 
  private:
@@ -86,8 +89,11 @@ class StreamSink final : public FrameSink {
   /// @throws UsageError if the file cannot be opened.
   explicit StreamSink(const std::string& name) : file_(name) {}
 
-  void append(const EncodedChunk& chunk) override;
-  void finish() override;
+  void append(const EncodedChunk& chunk) override {
+    counter_.take(chunk);
+    for (const Packet& packet : chunk) file_.write(packet.bytes);
+  }
+  void finish() override { file_.finish(); }
 
  private:
   FrameCounter counter_;
