@@ -13,7 +13,6 @@
 #include "core/text.hpp"
 #include "golden/difference.hpp"
 #include "media/png/png_chunk.hpp"
-#include "media/png/png_mark.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

@@ -1,26 +1,27 @@
 #include "h264/encoder.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "h264/levels.hpp"
 #include "h264/parameter_sets.hpp"
 #include "h264/picture.hpp"
 #include "h264/picture_encoder.hpp"
-#include "h264/text.hpp"
 
 namespace piblocks::h264 {
 namespace {
 
 void require(std::string_view field, std::int64_t value, std::int64_t least, std::int64_t most) {
   if (least <= value && value <= most) return;
-  throw Error(text("h264: ", field, " is ", value, ", not in [", least, ", ", most, "]"));
+  throw Error("h264: " + std::string(field) + " is " + std::to_string(value) + ", not in [" +
+              std::to_string(least) + ", " + std::to_string(most) + "]");
 }
 
 void require_side(std::string_view field, int value) {
   require(field, value, 2, std::int64_t{kLumaSide} * kMaxSide_mb);
-  if (value % 2 != 0) throw Error(text("h264: ", field, " is ", value, ", which is odd"));
+  if (value % 2 == 0) return;
+  throw Error("h264: " + std::string(field) + " is " + std::to_string(value) + ", which is odd");
 }
 
 PictureRate rate_of(const Config& config) {
@@ -38,62 +39,40 @@ void check(const Config& config) {
   if (!problem.empty()) throw Error("h264: " + problem);
 }
 
-/// @throws Error if none holds the stream
-const Level& level_of(const Config& config) {
+/// level_idc of the lowest that holds the stream. @throws Error if none does
+int level_of(const Config& config) {
   check(config);
-  return *lowest_level(config.width_px, config.height_px, rate_of(config));
+  return lowest_level(config.width_px, config.height_px, rate_of(config))->idc;
 }
 
 }  // namespace
 
-class Encoder::Impl {
- public:
-  explicit Impl(const Config& config)
-      : level_(level_of(config)),
-        headers_(write_parameter_sets(config, level_.idc)),
-        coder_(config) {}
-
-  const std::vector<std::uint8_t>& headers() const { return headers_; }
-  const Level& level() const { return level_; }
-  void restart() { is_begun_ = false; }
-  void take(const Planes& part, const Rect& rect) {
-    for (const Plane& plane : {part.y, part.cb, part.cr}) {
-      if (plane.samples == nullptr) throw Error("h264: a plane has no samples");
-    }
-    for (const int number : {rect.x_px, rect.y_px, rect.width_px, rect.height_px}) {
-      if (number >= 0 && number % 2 == 0) continue;
-      throw Error(text("h264: a rectangle has the number ", number, ", which is odd or below 0"));
-    }
-    coder_.take(part, rect);
-  }
-  CodedPicture encode(PictureType type, Bytes& unit) {
-    if (!is_begun_) type = PictureType::idr;
-    is_begun_ = true;
-    if (type == PictureType::idr) {
-      coder_.encode_idr(unit);
-    } else {
-      coder_.encode_p(unit);
-    }
-    return {type, coder_.transformed_macroblocks()};
-  }
-
- private:
-  const Level& level_;
-  Bytes headers_;
-  PictureEncoder coder_;
-  bool is_begun_ = false;
-};
-
-Encoder::Encoder(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
+Encoder::Encoder(const Config& config)
+    : level_idc_(level_of(config)),
+      headers_(write_parameter_sets(config, level_idc_)),
+      pictures_(std::make_unique<PictureEncoder>(config)) {}
 Encoder::~Encoder() = default;
 
-std::span<const std::uint8_t> Encoder::headers() const { return impl_->headers(); }
-int Encoder::level_idc() const { return impl_->level().idc; }
-void Encoder::restart() { impl_->restart(); }
+void Encoder::take(const Planes& part, const Rect& rect) {
+  for (const Plane& plane : {part.y, part.cb, part.cr}) {
+    if (plane.samples == nullptr) throw Error("h264: a plane has no samples");
+  }
+  for (const int number : {rect.x_px, rect.y_px, rect.width_px, rect.height_px}) {
+    if (number >= 0 && number % 2 == 0) continue;
+    throw Error("h264: a rectangle has the number " + std::to_string(number) +
+                ", which is odd or below 0");
+  }
+  pictures_->take(part, rect);
+}
 
-void Encoder::take(const Planes& part, const Rect& rect) { impl_->take(part, rect); }
 CodedPicture Encoder::encode(PictureType type, std::vector<std::uint8_t>& unit) {
-  return impl_->encode(type, unit);
+  if (!std::exchange(is_begun_, true)) type = PictureType::idr;
+  if (type == PictureType::idr) {
+    pictures_->encode_idr(unit);
+  } else {
+    pictures_->encode_p(unit);
+  }
+  return {type, pictures_->transformed_macroblocks()};
 }
 
 }  // namespace piblocks::h264

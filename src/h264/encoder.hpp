@@ -65,6 +65,8 @@ struct CodedPicture {
   int transformed_macroblocks;  ///< of a P picture: with coefficients, or I_PCM
 };
 
+class PictureEncoder;
+
 /// Encodes one stream. An object may be used by one thread at a time.
 class Encoder {
  public:
@@ -76,10 +78,10 @@ class Encoder {
 
   /// Sequence and picture parameter set, with start codes: the beginning of a byte stream, or what
   /// avcC of an MP4 file is made of.
-  std::span<const std::uint8_t> headers() const;
+  std::span<const std::uint8_t> headers() const { return headers_; }
   /// level_idc of the headers, ten times the level's number: the lowest that holds the size and the
   /// rate of the pictures, whatever their bytes.
-  int level_idc() const;
+  int level_idc() const { return level_idc_; }
 
   /// Takes a part of the next picture, whose other pixels are those of the picture before. All that
   /// differs has to be taken, of the very first picture everything; more does no harm.
@@ -95,11 +97,13 @@ class Encoder {
   /// Makes the stream begin anew: the next picture is an IDR picture, whose bytes depend on its
   /// samples, and on whether the one before was an IDR picture, too (7.4.3), alone. Nothing has to
   /// be passed whole again.
-  void restart();
+  void restart() { is_begun_ = false; }
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  int level_idc_;
+  std::vector<std::uint8_t> headers_;
+  std::unique_ptr<PictureEncoder> pictures_;
+  bool is_begun_ = false;
 };
 
 }  // namespace piblocks::h264

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "h264/text.hpp"
-
 namespace piblocks::h264 {
 namespace {
 
@@ -66,19 +64,21 @@ const Level* lowest_level(int width_px, int height_px, PictureRate rate) {
 std::string level_problem(int width_px, int height_px, PictureRate rate) {
   const Size size = size_of(width_px, height_px);
   if (std::max(size.width_mb, size.height_mb) > kMaxSide_mb) {
-    return text("a side of ", std::max(width_px, height_px), " px is longer than the ",
-                16 * kMaxSide_mb, " px of level 6.2, the highest");
+    return "a side of " + std::to_string(std::max(width_px, height_px)) +
+           " px is longer than the " + std::to_string(16 * kMaxSide_mb) +
+           " px of level 6.2, the highest";
   }
+  const std::string macroblocks = std::to_string(size.area_mb()) + " macroblocks of 16x16 pixels";
   if (size.area_mb() > kHighest.max_macroblocks) {
-    return text(width_px, "x", height_px, " are ", size.area_mb(),
-                " macroblocks of 16x16 pixels, more than the ", kHighest.max_macroblocks,
-                " of level 6.2, the highest");
+    return std::to_string(width_px) + "x" + std::to_string(height_px) + " are " + macroblocks +
+           ", more than the " + std::to_string(kHighest.max_macroblocks) +
+           " of level 6.2, the highest";
   }
   if (!holds(kHighest, size, rate)) {
-    const std::string divisor = rate.denominator == 1 ? "" : text("/", rate.denominator);
-    return text(size.area_mb(), " macroblocks of 16x16 pixels in each of ", rate.numerator, divisor,
-                " frames a second are more than the ", kHighest.max_macroblocks_per_s,
-                " a second of level 6.2, the highest");
+    const std::string divisor = rate.denominator == 1 ? "" : "/" + std::to_string(rate.denominator);
+    return macroblocks + " in each of " + std::to_string(rate.numerator) + divisor +
+           " frames a second are more than the " + std::to_string(kHighest.max_macroblocks_per_s) +
+           " a second of level 6.2, the highest";
   }
   return {};
 }

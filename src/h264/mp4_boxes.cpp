@@ -20,15 +20,14 @@ void TrackWriter::put_movie(std::uint64_t time_scale, std::uint64_t duration,
   });
 }
 
-void TrackWriter::put_track_header(const Head& head, std::uint64_t volume, std::uint64_t group,
-                                   std::uint64_t width_px, std::uint64_t height_px) {
+void TrackWriter::put_track_header(const Head& head) {
   box("tkhd", [&] {
     put_version(is_long(head.duration), 3);  // enabled, in the movie
     put_times(head.duration, {head.id, 0});
     put_zeros(8);
-    put_all({group, volume << 16});  // below layer 0
+    put_all({head.group, head.volume << 16});  // below layer 0
     put_unit_matrix();
-    put_all({width_px << 16, height_px << 16});
+    put_all({head.width_px << 16, head.height_px << 16});
   });
 }
 

@@ -1,4 +1,4 @@
-// Boxes, of which MP4 files consist (ISO/IEC 14496-12), and those that all tracks have.
+// Boxes, of which MP4 files consist (ISO/IEC 14496-12, 4.2), and those that all tracks have.
 // In: numbers, and functions that put what a box contains. Out: bytes.
 #pragma once
 
@@ -12,8 +12,7 @@
 
 namespace piblocks::h264 {
 
-/// Boxes, of which MP4 files consist (ISO/IEC 14496-12, 4.2), one in another: a size, four letters,
-/// a content. Numbers have their highest byte first.
+/// Boxes, one in another: a size, four letters, a content. Numbers have their highest byte first.
 class BoxWriter {
  public:
   void put(std::uint64_t value, int size_bytes) {
@@ -65,11 +64,15 @@ struct SampleChunk {
 struct Head {
   std::uint64_t id;
   std::uint64_t time_scale;
-  std::uint64_t duration;        ///< that is shown, in units of the movie
-  std::uint64_t media_duration;  ///< in units of the track
-  std::uint64_t media_start;     ///< where in it that begins
+  std::uint64_t duration;         ///< that is shown, in units of the movie
+  std::uint64_t media_duration;   ///< in units of the track
+  std::uint64_t media_start = 0;  ///< where in it that begins
   std::string_view handler;
   std::string_view name;
+  std::uint64_t volume = 0;  ///< in parts of 256
+  std::uint64_t group = 0;   ///< of tracks that stand for each other; 0: none
+  std::uint64_t width_px = 0;
+  std::uint64_t height_px = 0;
 };
 
 /// A run of chunks in stsc.
@@ -85,8 +88,8 @@ class TrackWriter : public BoxWriter {
   static constexpr std::uint64_t kLongMovie_bytes = 12;
 
   void put_movie(std::uint64_t time_scale, std::uint64_t duration, std::uint64_t next_id);
-  /// The content of trak behind its header. @param put_kind  the header of minf
-  /// @param put_tables   the content of stbl. @param later_bytes  of it, behind all boxes
+  /// trak. @param put_kind  the header of minf. @param put_tables   the content of stbl.
+  /// @param later_bytes  of it, behind all boxes
   template <typename PutKind, typename PutTables>
   void put_track(const Head& head, const PutKind& put_kind, const PutTables& put_tables,
                  std::uint64_t later_bytes = 0) {
@@ -99,12 +102,25 @@ class TrackWriter : public BoxWriter {
       put_media_header(head);
       box("minf", put_information, later_bytes);
     };
-    put_edits(head);
-    box("mdia", put_media, later_bytes);
+    const auto put_all_boxes = [&] {
+      put_track_header(head);
+      put_edits(head);
+      box("mdia", put_media, later_bytes);
+    };
+    box("trak", put_all_boxes, later_bytes);
   }
-  /// @param volume  in parts of 256. @param group  of tracks that stand for each other; 0: none
-  void put_track_header(const Head& head, std::uint64_t volume, std::uint64_t group,
-                        std::uint64_t width_px, std::uint64_t height_px);
+  /// stsd of one sample entry. @param put_entry  what it has behind data_reference_index
+  template <typename PutEntry>
+  void put_description(std::string_view type, const PutEntry& put_entry) {
+    box("stsd", [&] {
+      put_all({0, 1});
+      box(type, [&] {
+        put_zeros(6);
+        put(1, 2);  // data_reference_index
+        put_entry();
+      });
+    });
+  }
   void put_chunks(std::span<const ChunkRun> runs, std::span<const std::uint64_t> offsets);
   void put_chunks(std::span<const SampleChunk> chunks);
   /// stsz
@@ -115,6 +131,7 @@ class TrackWriter : public BoxWriter {
     put(has_long_duration ? 1 << 24 | flags : flags, 4);
   }
   void put_times(std::uint64_t duration, std::initializer_list<std::uint64_t> between);
+  void put_track_header(const Head& head);
   void put_unit_matrix() { put_all({65536, 0, 0, 0, 65536, 0, 0, 0, 1 << 30}); }
   void put_edits(const Head& head);
   void put_media_header(const Head& head);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <deque>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -11,9 +10,7 @@
 #include <vector>
 
 #include "h264/encoder.hpp"
-#include "h264/mp4_index.hpp"
-#include "h264/mp4_sound.hpp"
-#include "h264/mp4_text.hpp"
+#include "h264/mp4_tracks.hpp"
 #include "h264/nal_unit.hpp"
 
 namespace piblocks::h264 {
@@ -115,29 +112,6 @@ std::span<const Mp4Caption> checked(std::span<const Mp4Caption> captions, std::i
   return captions;
 }
 
-/// The most bytes that begin within a second.
-class SecondWatch {
- public:
-  explicit SecondWatch(const TrackFacts& track)
-      : pictures_(static_cast<std::size_t>((track.time_scale - 1) / track.picture_duration + 1)) {}
-  void take(std::uint64_t size_bytes) {
-    sizes_.push_back(size_bytes);
-    sum_ += size_bytes;
-    if (sizes_.size() > pictures_) {
-      sum_ -= sizes_.front();
-      sizes_.pop_front();
-    }
-    most_ = std::max(most_, sum_);
-  }
-  std::uint64_t most_bytes() const noexcept { return most_; }
-
- private:
-  std::size_t pictures_;  // in a second
-  std::deque<std::uint64_t> sizes_;
-  std::uint64_t sum_ = 0;
-  std::uint64_t most_ = 0;
-};
-
 /// Bytes that follow each other in the file, written in blocks.
 class Blocks {
  public:
@@ -189,7 +163,7 @@ class Mp4Writer::Impl {
         sound_(checked(track.sound)),
         write_at_(std::move(write_at)),
         levels_(track.width_px, track.height_px, track.rate, track_.sequence_set[1]),
-        seconds_(track_),
+        seconds_((track_.time_scale - 1) / track_.picture_duration + 1),
         sizes_start_(kFileType_bytes + kBoxHeader_bytes + index_room(track_)),
         sizes_(sizes_start_, kSizesBlock_bytes) {
     if (!track.captions.empty()) {

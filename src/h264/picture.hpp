@@ -157,13 +157,6 @@ class MacroblockSet {
         count_(width_mb * height_mb),
         words_((static_cast<std::size_t>(count_) + 63) / 64) {}
 
-  /// Adds all macroblocks that share a pixel with a rectangle inside the picture.
-  void add(int x_px, int y_px, int width_px, int height_px) {
-    if (width_px <= 0 || height_px <= 0) return;
-    for (int y = y_px / 16; y <= (y_px + height_px - 1) / 16; ++y) {
-      for (int x = x_px / 16; x <= (x_px + width_px - 1) / 16; ++x) add_one(x, y);
-    }
-  }
   /// Adds a macroblock, if it is in the picture.
   void add_one(int x_mb, int y_mb) {
     const int address = y_mb * width_mb_ + x_mb;

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (image.words.size() != std::size_t(image.width_px) * std::size_t(image.height_px)) {
       std::abort();
     }
-    piblocks::read_png_samples(file.path());
+    piblocks::read_png_frame(file.path())->next();
   } catch (const piblocks::Error&) {  // the right answer to most of what comes here
   }
   return 0;

@@ -15,6 +15,14 @@
 
 namespace piblocks::h264 {
 
+/// Adds all macroblocks that share a pixel with a rectangle inside the picture.
+inline void add(MacroblockSet& set, int x_px, int y_px, int width_px, int height_px) {
+  if (width_px <= 0 || height_px <= 0) return;
+  for (int y = y_px / 16; y <= (y_px + height_px - 1) / 16; ++y) {
+    for (int x = x_px / 16; x <= (x_px + width_px - 1) / 16; ++x) set.add_one(x, y);
+  }
+}
+
 class CallersPicture {
  public:
   CallersPicture(int width_px, int height_px, int padding_bytes = 0)

@@ -86,7 +86,7 @@ TEST(Conformance, LibavcodecShowsTheLargestDifferencesAsTheyWereMade) {
         value = frame % 2 == 1 ? static_cast<std::uint8_t>(255 - value)
                                : static_cast<std::uint8_t>(255 * random.integer(0, 1));
       }
-      changed.add(0, 0, kSide_px, kSide_px);
+      add(changed, 0, 0, kSide_px, kSide_px);
       const auto shown = decoder.decode(frame == 0 ? encoded_idr(encoder, picture)
                                                    : encoded_p(encoder, picture, changed));
       ASSERT_TRUE(shown) << "frame " << frame << " at QP " << qp;

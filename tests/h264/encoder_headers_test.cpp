@@ -8,7 +8,7 @@
 #include "h264/callers_picture.hpp"
 #include "h264/encoder.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/av_versions.hpp"
+#include "support/decode_video.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -62,7 +62,7 @@ TEST(EncoderHeaders, AreUnderstoodByLibavcodec) {
     EXPECT_EQ(frame->width, config.width_px);
     EXPECT_EQ(frame->height, config.height_px);
     EXPECT_EQ(frame->format, AV_PIX_FMT_YUV420P);
-    EXPECT_TRUE(is_key_frame(*frame));
+    EXPECT_TRUE(testing_support::is_key_frame(*frame));
     EXPECT_EQ(frame->sample_aspect_ratio.num, 1);
     EXPECT_EQ(frame->sample_aspect_ratio.den, 1);
     EXPECT_EQ(frame->color_range, AVCOL_RANGE_MPEG);

@@ -216,7 +216,7 @@ TEST(Encoder, ExtendsPicturesOfNoWholeMacroblocks) {
     Picture extended(width_mb, height_mb);
     PictureEncoder by_hand({.width_px = 16 * width_mb, .height_px = 16 * height_mb});
     MacroblockSet all(width_mb, height_mb);
-    all.add(0, 0, 16 * width_mb, 16 * height_mb);
+    add(all, 0, 0, 16 * width_mb, 16 * height_mb);
     Encoder encoder(config);
     for (std::uint64_t i = 0; i < 4; ++i) {
       const CallersPicture picture = noise(config, i);

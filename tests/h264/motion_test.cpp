@@ -202,7 +202,7 @@ void write(Picture& picture, MacroblockSet& changed, int x) {
       }
     }
   }
-  changed.add(0, 32, 16 * picture.width_mb(), kHeight);
+  add(changed, 0, 32, 16 * picture.width_mb(), kHeight);
 }
 
 TEST(Motion, OfWritingCostsATenthOfTheWriting) {
@@ -257,7 +257,7 @@ TEST(Motion, FollowsLargeWindowsThatScrollFarOrAreDragged) {
     draw_window(picture, texture, window, x, y);
     const bool is_first = first_bytes == 0;
     MacroblockSet all(picture.width_mb(), picture.height_mb());
-    all.add(0, 0, 640, 480);
+    add(all, 0, 0, 640, 480);
     const Bytes unit = is_first ? encoded_idr(encoder, picture) : encoded_p(encoder, picture, all);
     if (is_first) first_bytes = unit.size();
     const auto shown = decoder.decode(unit);

@@ -31,8 +31,9 @@ class Mp4Libav : public testing::TestWithParam<std::string> {
     if (avcodec_find_encoder_by_name("libx264") == nullptr) GTEST_SKIP() << "there is no libx264";
     const VideoFormat format = {
         .width_px = 640, .height_px = 360, .frame_rate = Rational(GetParam())};
-    const VideoEncoder encoder(format, h264_setup(format, {}, {EncoderKind::h264}));
-    const VideoStream& stream = encoder.stream();
+    const auto encoder =
+        std::make_shared<const VideoEncoder>(format, h264_setup(format, {}, {EncoderKind::h264}));
+    const VideoStream& stream = encoder->stream();
     std::ofstream file(ours_, std::ios::binary);
     const auto write_at = [&](std::uint64_t offset, std::span<const std::uint8_t> bytes) {
       file.seekp(std::streamoff(offset));
@@ -47,7 +48,7 @@ class Mp4Libav : public testing::TestWithParam<std::string> {
         write_at);
     const auto sink = open_video_file(theirs_, kMp4, stream, nullptr);
     const auto chunks = libav_chunk_encoder(encoder);
-    const std::int64_t length = encoder.frames_per_chunk();
+    const std::int64_t length = encoder->frames_per_chunk();
     for (std::int64_t first = 0; first < kPictures; first += length) {
       chunks->begin(first);
       for (std::int64_t i = first; i < std::min(first + length, kPictures); ++i) {

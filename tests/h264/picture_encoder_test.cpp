@@ -30,7 +30,7 @@ void fill(Picture& picture, MacroblockSet& changed, const PixelRect& rect, std::
       std::fill_n(row + rect.x_px / step, rect.width_px / step, value);
     }
   }
-  changed.add(rect.x_px, rect.y_px, rect.width_px, rect.height_px);
+  add(changed, rect.x_px, rect.y_px, rect.width_px, rect.height_px);
 }
 
 void convert(const Pixels& pixels, Picture& picture) {
@@ -87,7 +87,7 @@ TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
 
   // Also if all macroblocks are marked, but none changes.
   const Picture shown = encoder.decoded();
-  changed_.add(0, 0, kSmall.width_px, kSmall.height_px);
+  add(changed_, 0, 0, kSmall.width_px, kSmall.height_px);
   EXPECT_LE(encoded_p(encoder, shown, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
   EXPECT_EQ(deviation_of(shown, encoder.decoded()).largest, 0);
@@ -177,7 +177,7 @@ TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
   const StreamHeaders headers(format);
   Picture picture(headers.width_mb, headers.height_mb);
   MacroblockSet changed(headers.width_mb, headers.height_mb);
-  changed.add(0, 0, format.width_px, format.height_px);
+  add(changed, 0, 0, format.width_px, format.height_px);
   PictureEncoder encoder(format);
   for (int i = 0; i < 20; ++i) {
     convert(article_frame(format.width_px, format.height_px, i / 10.0), picture);

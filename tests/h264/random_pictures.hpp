@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "h264/picture.hpp"
+#include "h264/callers_picture.hpp"
 
 namespace piblocks::h264 {
 
@@ -57,7 +57,7 @@ class RandomPictures {
     const int w = 2 * pick(1, std::min(40, (width - x) / 2));
     const int h = 2 * pick(1, std::min(40, (height - y) / 2));
     fill({x, y, w, h});
-    changed_.add(x, y, w, h);
+    add(changed_, x, y, w, h);
   }
 
   void fill(const Rect& rect) {

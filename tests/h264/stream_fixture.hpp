@@ -56,7 +56,7 @@ inline Bytes encoded_idr(PictureEncoder& encoder, const Picture& source,
 /// The same if all may have changed.
 inline Bytes encoded_idr(PictureEncoder& encoder, const Picture& source) {
   MacroblockSet all(source.width_mb(), source.height_mb());
-  all.add(0, 0, 16 * source.width_mb(), 16 * source.height_mb());
+  add(all, 0, 0, 16 * source.width_mb(), 16 * source.height_mb());
   return encoded_idr(encoder, source, all);
 }
 

@@ -1,7 +1,7 @@
-#include "media/pixels/changed_picture.hpp"
-
+// What has changed in a picture.
 #include <gtest/gtest.h>
 
+#include "media/output/animated_output.hpp"
 #include "support/article_frames.hpp"
 
 namespace piblocks {

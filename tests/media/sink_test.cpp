@@ -11,7 +11,7 @@
 
 #include "media/output/output.hpp"
 #include "media/pixels/yuv.hpp"
-#include "media/png/png_mark.hpp"
+#include "media/png/png_chunk.hpp"
 #include "media/write_frames.hpp"
 #include "support/contains.hpp"
 #include "support/decode_video.hpp"

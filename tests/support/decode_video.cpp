@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "media/libav/av.hpp"
-#include "media/libav/av_versions.hpp"
 #include "media/libav/decoded_frame.hpp"
 
 extern "C" {
@@ -55,6 +54,14 @@ AvCodecContextPtr open_decoder(const AVStream& stream) {
 }
 
 }  // namespace
+
+bool is_key_frame(const AVFrame& frame) noexcept {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(58, 29, 100)  // FFmpeg 6.1
+  return (frame.flags & AV_FRAME_FLAG_KEY) != 0;
+#else
+  return frame.key_frame != 0;
+#endif
+}
 
 DecodedStream decode_video(const std::filesystem::path& path,
                            const std::function<void(DecodedFrame&&)>& take) {

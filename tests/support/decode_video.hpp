@@ -12,6 +12,8 @@
 
 #include "support/article_frames.hpp"
 
+struct AVFrame;
+
 namespace piblocks::testing_support {
 
 /// libavutil's names, such as "bt709" and "tv"; "unknown" or "unspecified" where there is none.
@@ -51,6 +53,8 @@ struct DecodedStream {
 struct DecodedVideo : DecodedStream {
   std::vector<DecodedFrame> frames;
 };
+
+bool is_key_frame(const AVFrame& frame) noexcept;
 
 /// Decodes the first video stream and hands out its frames in the order they are shown.
 /// @throws MediaError, IoError

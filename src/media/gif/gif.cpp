@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "media/gif/color_table.hpp"
-#include "media/gif/lzw.hpp"
 #include "media/output/animated_output.hpp"
-#include "media/output/output_kinds.hpp"
 #include "media/pixels/animation.hpp"
 
 namespace piblocks {
@@ -24,6 +22,108 @@ constexpr std::size_t kMaxColors = 256;
 constexpr std::size_t kPlace_bytes = 8;
 constexpr std::size_t kHead_bytes = 12;
 using Colors = std::vector<std::uint32_t>;  // 0x00RRGGBB
+
+constexpr int kMaxWidth_bits = 12;
+using LzwCode = std::uint16_t;
+constexpr LzwCode kLzwClear = 256;
+
+/// Which string is another one and a value behind it: a hash table.
+class Strings {
+ public:
+  void clear() {
+    std::ranges::fill(slots_, Slot{});
+    last_ = kLzwClear;
+  }
+  /// The code of the longer string; 0 if there is none.
+  LzwCode find(LzwCode code, std::uint8_t value) { return slot(code, value).code; }
+  /// @return whether there is room, beside pixels of 8 bits, for one more.
+  bool add(LzwCode code, std::uint8_t value) {
+    constexpr LzwCode kLast = (1 << kMaxWidth_bits) - 2;
+    slot(code, value) = {key_of(code, value), ++last_};
+    return last_ < kLast;
+  }
+
+ private:
+  struct Slot {
+    std::uint32_t key = 0;
+    LzwCode code = 0;  // of no string: the slot is empty
+  };
+
+  static std::uint32_t key_of(LzwCode code, std::uint8_t value) {
+    return std::uint32_t{code} << 8 | value;
+  }
+  Slot& slot(LzwCode code, std::uint8_t value) {
+    constexpr std::uint32_t kFactor = 2654435761;  // 2^32 by the golden ratio
+    const std::uint32_t key = key_of(code, value);
+    std::size_t at = key * kFactor >> 19;
+    while (slots_[at].code != 0 && slots_[at].key != key) at = (at + 1) % slots_.size();
+    return slots_[at];
+  }
+
+  std::vector<Slot> slots_ = std::vector<Slot>(1 << 13);
+  LzwCode last_ = kLzwClear;
+};
+
+/// Appends two bytes for each code: the value of a pixel, up to 255; or 256, which clears the table
+/// of strings; or a string of that table, from 257 on. They suit any colour table; giflib
+/// compresses only for one that is known. @param pixels  at least one
+void append_lzw_codes(Bytes& bytes, ByteSpan pixels) {
+  Strings strings;
+  const auto put = [&](LzwCode code) { append_little_endian(bytes, code, 2); };
+  put(kLzwClear);
+  LzwCode open = pixels.front();  // the string of the pixels since the last code
+  for (const std::uint8_t value : pixels.subspan(1)) {
+    const LzwCode longer = strings.find(open, value);
+    if (longer == 0) {
+      put(open);
+      if (!strings.add(open, value)) {
+        put(kLzwClear);
+        strings.clear();
+      }
+    }
+    open = longer != 0 ? longer : value;
+  }
+  put(open);
+}
+
+/// Appends the data of an image (GIF 89a, appendix F). @param codes  as append_lzw_codes() writes
+/// them
+/// @param indices  of the colours that the values of pixels stand for
+/// @param bits     of an index, 2 … 8
+void append_lzw(Bytes& bytes, ByteSpan codes, const Bytes& indices, int bits) {
+  const std::uint32_t clear = 1U << bits;
+  Bytes data;
+  std::uint32_t held = 0;
+  int held_bits = 0;
+  int width_bits = bits + 1;
+  const auto put = [&](std::uint32_t code) {
+    held |= code << held_bits;
+    held_bits += width_bits;
+    for (; held_bits >= 8; held_bits -= 8, held >>= 8) data.push_back(std::uint8_t(held));
+  };
+  std::uint32_t last_string = 0;  // the last one that a reader knows once it has the next code
+  for (; codes.size() >= 2; codes = codes.subspan(2)) {
+    const auto code = std::uint32_t(from_little_endian(codes.first(2)));
+    if (code < kLzwClear && code >= indices.size()) throw MediaError("gif: an image is damaged");
+    put(code < kLzwClear ? indices[code] : clear + code - kLzwClear + (code > kLzwClear ? 1 : 0));
+    if (code == kLzwClear) {
+      width_bits = bits + 1;
+      last_string = clear + 1;
+    } else if (++last_string == 1U << width_bits && width_bits < kMaxWidth_bits) {
+      ++width_bits;
+    }
+  }
+  put(clear + 1);  // the end
+  data.push_back(std::uint8_t(held));
+  bytes.push_back(std::uint8_t(bits));
+  for (ByteSpan rest = data; !rest.empty();) {
+    const ByteSpan block = rest.first(std::min<std::size_t>(255, rest.size()));
+    bytes.push_back(std::uint8_t(block.size()));
+    append(bytes, block);
+    rest = rest.subspan(block.size());
+  }
+  bytes.push_back(0);
+}
 
 void append_colors(Bytes& bytes, const Colors& colors) {
   for (const std::uint32_t color : colors) append_big_endian(bytes, color, 3);
@@ -151,9 +251,8 @@ Bytes image_bytes(ByteSpan image, std::optional<Bytes> indices, std::uint64_t de
 
 class GifSink final : public AnimationSink {
  public:
-  explicit GifSink(const OutputRequest& request)
-      : AnimationSink(request.name, kHead_bytes), rate_(request.format.frame_rate) {
-    file().write(header_of(request.format, request.settings.plays.value_or(0)));
+  explicit GifSink(const OutputRequest& request) : AnimationSink(request, kHead_bytes) {
+    file().write(header_of(request.format, plays()));
   }
 
  private:
@@ -163,11 +262,11 @@ class GifSink final : public AnimationSink {
     if (!has_values || image.size() < kHead_bytes + 3 * colors) {
       throw MediaError("gif: an image is damaged");
     }
-    const Integer delay_cs = tick_of(end, rate_, 100) - tick_of(first, rate_, 100);
-    Bytes bytes = image_bytes(image, std::nullopt, delay_cs.get_ui());
+    const std::uint64_t delay_cs = ticks_of(first, end, 100);
+    Bytes bytes = image_bytes(image, std::nullopt, delay_cs);
     // The first image has many colours that no other one has.
     if (auto indices = first == 0 ? std::nullopt : shared_indices_of(image)) {
-      Bytes other = image_bytes(image, std::move(indices), delay_cs.get_ui());
+      Bytes other = image_bytes(image, std::move(indices), delay_cs);
       if (other.size() < bytes.size()) bytes = std::move(other);
     }
     file().write(bytes);
@@ -196,7 +295,6 @@ class GifSink final : public AnimationSink {
     file().write_at(kSharedColors_at, colors);
   }
 
-  Rational rate_;
   Colors shared_ = {0};  // the transparent one, then those of the first images with room for them
 };
 
@@ -221,13 +319,7 @@ Output gif_output(const OutputRequest& request) {
   const std::string problem = gif_rate_problem(rate);
   if (!problem.empty()) throw UsageError(problem);
   const std::int64_t longest = Integer(floor(kMaxDelay_cs * rate / 100)).get_si();
-  return {
-      .frames_per_chunk = kFramesPerChunk,
-      .signature = fmt::format("gif, plays {}", request.settings.plays.value_or(0)),
-      .make_encoder = [format = request.format,
-                       longest] { return std::make_unique<GifEncoder>(format, longest); },
-      .open = [request](const Opening& /*opening*/) { return std::make_unique<GifSink>(request); },
-      .needs_frame_before = true};
+  return animated_output<GifEncoder, GifSink>(request, kFramesPerChunk, longest, "gif");
 }
 
 }  // namespace piblocks

@@ -82,14 +82,11 @@ std::string version_text(unsigned number) {
                      AV_VERSION_MICRO(number));
 }
 
-std::string giflib_version() {
-  return fmt::format("giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE);
-}
-
 std::vector<std::string> av_library_versions() {
   return {"libavformat " + version_text(avformat_version()),
           "libavcodec " + version_text(avcodec_version()),
-          "libavutil " + version_text(avutil_version()), giflib_version()};
+          "libavutil " + version_text(avutil_version()),
+          fmt::format("giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE)};
 }
 
 }  // namespace piblocks

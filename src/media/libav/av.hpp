@@ -3,19 +3,71 @@
 // Only this folder includes libav. Pass AVFrame& and the like onward, never the owners.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
 #include <libavutil/hash.h>
 }
 
-#include "media/libav/avformat_calls.hpp"
+#include "core/found_function.hpp"
 
 namespace piblocks {
+
+// The functions of libavformat that are called here. It is loaded when the first of them is called:
+// with the 38 libraries that it brings it takes nearly as long as libavcodec, and sound in an MP4
+// file or pictures of a WebP do without.
+
+/// The address of one of these functions. Thread-safe. @throws MediaError if it cannot be loaded
+void* avformat_function(const char* name);
+
+// NOLINTBEGIN(cppcoreguidelines-macro-usage): only a macro makes declarations of a list of names
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wignored-attributes"  // warn_unused_result is no part of a type
+// In this namespace the name of a function means an object, which has the function's type.
+#define PIBLOCKS_FOUND(name) \
+  inline constinit const FoundFunction<avformat_function, decltype(::name)> name(#name);
+PIBLOCKS_FOUND(av_find_best_stream)
+PIBLOCKS_FOUND(av_guess_sample_aspect_ratio)
+PIBLOCKS_FOUND(av_read_frame)
+PIBLOCKS_FOUND(av_write_frame)
+PIBLOCKS_FOUND(av_write_trailer)
+PIBLOCKS_FOUND(avformat_alloc_context)
+PIBLOCKS_FOUND(avformat_alloc_output_context2)
+PIBLOCKS_FOUND(avformat_close_input)
+PIBLOCKS_FOUND(avformat_find_stream_info)
+PIBLOCKS_FOUND(avformat_free_context)
+PIBLOCKS_FOUND(avformat_index_get_entries_count)
+PIBLOCKS_FOUND(avformat_index_get_entry)
+PIBLOCKS_FOUND(avformat_new_stream)
+PIBLOCKS_FOUND(avformat_open_input)
+PIBLOCKS_FOUND(avformat_version)
+PIBLOCKS_FOUND(avformat_write_header)
+PIBLOCKS_FOUND(avio_closep)
+PIBLOCKS_FOUND(avio_flush)
+PIBLOCKS_FOUND(avio_open)
+PIBLOCKS_FOUND(avio_rb32)
+PIBLOCKS_FOUND(avio_rb64)
+PIBLOCKS_FOUND(avio_read)
+PIBLOCKS_FOUND(avio_rl32)
+PIBLOCKS_FOUND(avio_seek)
+PIBLOCKS_FOUND(avio_size)
+#undef PIBLOCKS_FOUND
+#pragma GCC diagnostic pop
+// NOLINTEND(cppcoreguidelines-macro-usage)
+
+/// In place of libavformat's inline function, which would link avio_seek().
+// NOLINTNEXTLINE(readability-identifier-naming): the name of the function
+inline constinit const auto avio_tell = [](AVIOContext* file) {
+  return avio_seek(file, 0, SEEK_CUR);
+};
 
 /// Frees through one of libav's functions that take the address of a pointer.
 template <auto Free>
@@ -50,6 +102,18 @@ using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 /// @throws IoError, MediaError if it cannot be read.
 AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop = nullptr);
 
+/// An opened file. Reading it fails soon after a stop has been requested.
+struct VideoInput {
+  VideoInput(const std::string& path, std::stop_token token)
+      : stop(std::move(token)), file(open_av_input(path, &stop)) {}
+  ~VideoInput() = default;
+  VideoInput(const VideoInput&) = delete;
+  VideoInput& operator=(const VideoInput&) = delete;
+
+  std::stop_token stop;  // libavformat has its address
+  AvInputPtr file;
+};
+
 /// Returns the result of a call into libav, or throws if it is an error.
 /// @param operation  such as "open encoder", of the object.
 /// @throws IoError for errors of the system (disk full, pipe closed), std::bad_alloc if memory ran
@@ -72,7 +136,14 @@ void silence_av();
 
 /// "59.37.100" for the result of avcodec_version() and the like.
 std::string version_text(unsigned number);
-/// "giflib 5.2.1"
-std::string giflib_version();
+
+// What differs between the versions of libav that the program is built with, FFmpeg 5.1 to 7.1, in
+// av_versions.cpp: what an object holds, in whichever field this version keeps it.
+
+/// Those that an encoder takes; empty if it does not say.
+std::span<const AVPixelFormat> pixel_formats_of(const AVCodec& encoder) noexcept;
+
+/// The matrix of 9 numbers that a file asks players to turn its pictures by; null if it has none.
+const std::uint8_t* display_matrix_of(const AVStream& stream) noexcept;
 
 }  // namespace piblocks

@@ -1,6 +1,6 @@
 // Everything that needs libav or giflib, loaded when it is first asked for.
 // libavcodec brings some 90 libraries with it, which take 15 ms to load: a still, a count or a PNG
-// sequence does without. libavformat comes later still (avformat_calls.hpp).
+// sequence does without. libavformat comes later still (av.hpp).
 #pragma once
 
 #include <piblocks/encode.hpp>
@@ -76,6 +76,9 @@ std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format, const h2
 /// read_video()
 std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
                                                const std::stop_token& stop = {});
+/// The frames of a GIF, each a whole picture.
+struct VideoInput;
+std::unique_ptr<FrameReader> read_gif(const std::string& path, std::unique_ptr<VideoInput> input);
 /// hash_of_bytes()
 std::string compute_hash(ByteSpan bytes);
 /// encoder_names()

@@ -1,14 +1,6 @@
-#include "media/libav/av_versions.hpp"
+#include "media/libav/av.hpp"
 
 namespace piblocks {
-
-bool is_key_frame(const AVFrame& frame) noexcept {
-#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(58, 29, 100)  // FFmpeg 6.1
-  return (frame.flags & AV_FRAME_FLAG_KEY) != 0;
-#else
-  return frame.key_frame != 0;
-#endif
-}
 
 std::span<const AVPixelFormat> pixel_formats_of(const AVCodec& encoder) noexcept {
 #if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(61, 13, 100)  // FFmpeg 7.1

@@ -11,7 +11,8 @@
 #include <utility>
 
 #include "core/nearest_name.hpp"
-#include "media/libav/av_versions.hpp"
+#include "media/libav/av.hpp"
+#include "media/libav/sound_stream.hpp"
 #include "media/mp4/h264_chunk.hpp"
 
 extern "C" {
@@ -32,14 +33,11 @@ constexpr double kX264Crf = 21;
 /// For encoders without constant quality: generous for flat shapes.
 constexpr double kBitsPerPixel = 0.1;
 
-bool takes_yuv420p(const AVCodec& codec) {
-  return std::ranges::count(pixel_formats_of(codec), AV_PIX_FMT_YUV420P) > 0;
-}
-
 bool is_software_h264(const AVCodec& codec) {
   constexpr int kHardware = AV_CODEC_CAP_HARDWARE | AV_CODEC_CAP_HYBRID;
   return av_codec_is_encoder(&codec) != 0 && codec.id == AV_CODEC_ID_H264 &&
-         (codec.capabilities & kHardware) == 0 && takes_yuv420p(codec);
+         (codec.capabilities & kHardware) == 0 &&
+         std::ranges::count(pixel_formats_of(codec), AV_PIX_FMT_YUV420P) > 0;
 }
 
 /// libavcodec's, the default first.
@@ -68,11 +66,8 @@ const AVCodec& find_encoder(const std::optional<std::string>& name,
         "video: cannot find an H.264 encoder in libavcodec; install Debian's package libavcodec59 "
         "(or libavcodec-extra), which brings libx264, or write *.y4m or *.png");
   }
-  for (const EncoderKind kind : kinds) {
-    if (std::ranges::count(usable_encoders(kind), *name) == 0) continue;
-    return *avcodec_find_encoder_by_name(name->c_str());
-  }
   const std::vector<std::string> usable = usable_encoders(kinds);
+  if (std::ranges::count(usable, *name) > 0) return *avcodec_find_encoder_by_name(name->c_str());
   throw UsageError(fmt::format("video: cannot use encoder '{}'; use one of: {}{}", *name,
                                fmt::join(usable, ", "), did_you_mean(*name, usable)));
 }
@@ -198,7 +193,7 @@ std::string crf_problem(double crf) {
 }
 
 std::string missing_encoder(const std::optional<std::string>& name) {
-  const std::vector<std::string> usable = usable_webm_encoders();
+  const std::vector<std::string> usable = usable_encoders(EncoderKind::webm);
   const std::string wanted = name.value_or("vp9");
   return fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}{}", wanted,
                      fmt::join(usable, ", "), did_you_mean(wanted, usable));
@@ -214,18 +209,30 @@ void set_up(AVCodecContext& context, const WebmEncoder& encoder, const EncoderSe
 }  // namespace
 
 std::vector<std::string> usable_encoders(EncoderKind kind) {
+  std::vector<std::string> names;
   switch (kind) {
     case EncoderKind::h264:
-      return usable_h264_encoders();
+      names = software_encoders();
+      names.emplace(names.begin(), kBuiltin);
+      break;
     case EncoderKind::webm:
-      return usable_webm_encoders();
+      for (const WebmEncoder& encoder : kEncoders) {
+        const auto set_up_default = [&](AVCodecContext& context) { set_up(context, encoder, {}); };
+        const AVCodec* const codec = codec_of(encoder);
+        if (codec == nullptr || !can_be_opened(*codec, set_up_default)) continue;
+        names.emplace_back(encoder.name);
+      }
+      break;
     case EncoderKind::prores:
-      if (avcodec_find_encoder_by_name(kProres.data()) == nullptr) return {};
-      return {std::string(kProres)};
+      if (avcodec_find_encoder_by_name(kProres.data()) != nullptr) names.emplace_back(kProres);
+      break;
     case EncoderKind::sound:
-      return usable_sound_encoders();
+      for (const SoundCodec& codec : {kAac, kOpus}) {
+        if (avcodec_find_encoder_by_name(codec.name) != nullptr) names.emplace_back(codec.name);
+      }
+      break;
   }
-  return {};
+  return names;
 }
 
 std::vector<std::string> usable_encoders(std::span<const EncoderKind> kinds) {
@@ -281,12 +288,6 @@ EncoderSetup prores_setup(const VideoFormat& format, const EncoderSettings& sett
           .alternatives = {EncoderKind::prores}};
 }
 
-std::vector<std::string> usable_h264_encoders() {
-  std::vector<std::string> names = software_encoders();
-  names.emplace(names.begin(), kBuiltin);
-  return names;
-}
-
 EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settings,
                         const std::vector<EncoderKind>& kinds) {
   const AVCodec* codec = nullptr;
@@ -307,16 +308,6 @@ EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settin
       .frames_per_chunk = frames_in_a_second(format.frame_rate),
       .apply = [codec, settings](AVCodecContext& context) { set_up(context, *codec, settings); },
       .alternatives = kinds};
-}
-
-std::vector<std::string> usable_webm_encoders() {
-  std::vector<std::string> names;
-  for (const WebmEncoder& encoder : kEncoders) {
-    const auto set_up_default = [&](AVCodecContext& context) { set_up(context, encoder, {}); };
-    const AVCodec* const codec = codec_of(encoder);
-    if (codec != nullptr && can_be_opened(*codec, set_up_default)) names.emplace_back(encoder.name);
-  }
-  return names;
 }
 
 EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settings) {

@@ -39,10 +39,6 @@ EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settin
 
 /// The encoders of all these kinds.
 std::vector<std::string> usable_encoders(std::span<const EncoderKind> kinds);
-// The rows of usable_encoders().
-std::vector<std::string> usable_h264_encoders();
-std::vector<std::string> usable_webm_encoders();
-std::vector<std::string> usable_sound_encoders();
 
 /// Whether the encoder has an option of its own with this name.
 bool has_option(const AVCodec& codec, const char* name);

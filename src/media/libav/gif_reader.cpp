@@ -15,7 +15,7 @@
 
 #include "core/stop.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/video_reader.hpp"
+#include "media/libav/av_module.hpp"
 #include "media/pixels/animation.hpp"
 #include "media/pixels/frame_reader.hpp"
 
@@ -57,9 +57,7 @@ class GifReader final : public FrameReader {
       return true;
     }
   }
-  std::string layout() const override { return std::string(kRgba); }
   AnyImage samples() override { return *shown_; }
-  AnyImage rgb() override { return *shown_; }
 
  private:
   [[noreturn]] void fail(int error) const {

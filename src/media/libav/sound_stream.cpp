@@ -80,14 +80,6 @@ class SoundPackets final : public PacketSource {
 
 }  // namespace
 
-std::vector<std::string> usable_sound_encoders() {
-  std::vector<std::string> names;
-  for (const SoundCodec& codec : {kAac, kOpus}) {
-    if (avcodec_find_encoder_by_name(codec.name) != nullptr) names.emplace_back(codec.name);
-  }
-  return names;
-}
-
 SoundEncoder::SoundEncoder(const SoundCodec& codec, const SoundFormat& format)
     : settings_(codec),
       format_(format),

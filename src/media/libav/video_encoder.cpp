@@ -80,13 +80,14 @@ AvFramePtr allocate_picture(const AVCodecParameters& stream) {
 
 class LibavChunkEncoder final : public ChunkEncoder {
  public:
-  explicit LibavChunkEncoder(const VideoEncoder& encoder)
-      : ChunkEncoder(encoder.format()),
-        encoder_(encoder),
-        picture_(allocate_picture(*encoder.stream().parameters)),
+  LibavChunkEncoder(std::shared_ptr<const VideoEncoder> encoder, std::string method)
+      : ChunkEncoder(encoder->format()),
+        encoder_(std::move(encoder)),
+        method_(std::move(method)),
+        picture_(allocate_picture(*encoder_->stream().parameters)),
         packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
   void begin(std::int64_t first_frame) override {
-    context_ = encoder_.open();
+    context_ = encoder_->open();
     first_frame_ = first_frame;
     frames_ = 0;
   }
@@ -104,6 +105,7 @@ class LibavChunkEncoder final : public ChunkEncoder {
     context_.reset();
     return std::exchange(chunk_, {});
   }
+  std::string method() const override { return method_; }
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
@@ -138,7 +140,8 @@ class LibavChunkEncoder final : public ChunkEncoder {
     }
   }
 
-  const VideoEncoder& encoder_;
+  std::shared_ptr<const VideoEncoder> encoder_;
+  std::string method_;
   AvFramePtr picture_;  // kept, since a frame changes little of it
   AvCodecContextPtr context_;
   std::int64_t first_frame_ = 0;
@@ -232,8 +235,9 @@ VideoStream h264_stream(const VideoFormat& format, ByteSpan headers, int level_i
   return stream;
 }
 
-std::unique_ptr<ChunkEncoder> libav_chunk_encoder(const VideoEncoder& encoder) {
-  return std::make_unique<LibavChunkEncoder>(encoder);
+std::unique_ptr<ChunkEncoder> libav_chunk_encoder(std::shared_ptr<const VideoEncoder> encoder,
+                                                  std::string method) {
+  return std::make_unique<LibavChunkEncoder>(std::move(encoder), std::move(method));
 }
 
 Bytes with_alpha(const PictureAndAlpha& both) {

@@ -49,9 +49,9 @@ class VideoEncoder {
   VideoStream stream_;
 };
 
-/// Makes the chunks of a stream, each by an encoder of its own.
-/// @param encoder  must outlive the result.
-std::unique_ptr<ChunkEncoder> libav_chunk_encoder(const VideoEncoder& encoder);
+/// Makes the chunks of a stream, each by an encoder of its own. @param method  what it says of each
+std::unique_ptr<ChunkEncoder> libav_chunk_encoder(std::shared_ptr<const VideoEncoder> encoder,
+                                                  std::string method = {});
 
 /// The stream of H.264 that has these headers.
 VideoStream h264_stream(const VideoFormat& format, ByteSpan headers, int level_idc);

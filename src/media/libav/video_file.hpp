@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "media/libav/sound_stream.hpp"
 #include "media/libav/video_encoder.hpp"
@@ -24,17 +23,12 @@ struct Container {
   /// Whether a file that is read back has so many packets of each stream.
   bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets) = nullptr;
   SoundCodec sound = {};
-  std::vector<EncoderKind> encoders = {};  ///< of its pictures
   /// Whether sound is counted from its first packet. In other containers that packet is before 0,
   /// and libavformat moves all streams if the file cannot have negative times.
   bool sound_from_zero = false;
 };
 
 extern const Container kMp4;
-extern const Container kMov;
-/// For ProRes.
-extern const Container kEditorMov;
-extern const Container kWebm;
 
 /// @param pictures  must outlive the sink.
 /// @param sound     its encoder, or null; must outlive the sink.

@@ -1,5 +1,4 @@
-#include "media/libav/video_reader.hpp"
-
+// The frames of any video that libavformat reads.
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -18,7 +17,6 @@
 #include "core/input_file.hpp"
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/libav/av_versions.hpp"
 #include "media/libav/decoded_frame.hpp"
 
 extern "C" {

@@ -8,7 +8,6 @@
 #include "media/libav/av.hpp"
 #include "media/libav/encoder_setup.hpp"
 #include "media/output/animated_output.hpp"
-#include "media/output/output_kinds.hpp"
 #include "media/pixels/rgb24.hpp"
 
 namespace piblocks {
@@ -36,8 +35,7 @@ AvCodecContextPtr open_webp_encoder(const PixelRect& rect) {
 /// An image is the contents of a chunk ANMF, whose duration WebpSink fills in.
 class WebpEncoder final : public AnimationEncoder {
  public:
-  WebpEncoder(const VideoFormat& format, std::int64_t longest)
-      : AnimationEncoder(format, longest), has_alpha_(format.has_alpha) {}
+  using AnimationEncoder::AnimationEncoder;
 
  private:
   Bytes encode_image(const ChangedPicture& picture) override {
@@ -54,12 +52,13 @@ class WebpEncoder final : public AnimationEncoder {
          {rect.x_px / 2, rect.y_px / 2, rect.width_px - 1, rect.height_px - 1, 0}) {
       append_little_endian(image, std::uint64_t(value), 3);
     }
-    image.push_back(has_alpha_ ? kReplace : 0);
+    image.push_back(picture.view().has_alpha ? kReplace : 0);
     append_compressed(image, *pixels_of(picture, rect));
     return image;
   }
   /// Unless they have alpha, pixels that have not changed are transparent.
-  AvFramePtr pixels_of(const ChangedPicture& picture, const PixelRect& rect) const {
+  static AvFramePtr pixels_of(const ChangedPicture& picture, const PixelRect& rect) {
+    const ImageView view = picture.view();
     auto frame = own_av<AvFramePtr>(av_frame_alloc(), "picture");
     frame->width = rect.width_px;
     frame->height = rect.height_px;
@@ -67,11 +66,11 @@ class WebpEncoder final : public AnimationEncoder {
     check_av(av_frame_get_buffer(frame.get(), 0), "allocate", "picture");
     for (int i = 0; i < rect.height_px; ++i) {
       std::uint8_t* pixel = frame->data[0] + std::ptrdiff_t{i} * frame->linesize[0];
-      pack_row_rgba(picture.view(has_alpha_), rect, rect.y_px + i, pixel);
+      pack_row_rgba(view, rect, rect.y_px + i, pixel);
       const std::uint8_t* const marks = picture.marks(rect.y_px + i) + rect.x_px;
       for (int x = 0; x < rect.width_px; ++x, pixel += 4) {
         std::swap(pixel[0], pixel[2]);
-        if (!has_alpha_ && marks[x] == 0) std::fill_n(pixel, 4, std::uint8_t{0});
+        if (!view.has_alpha && marks[x] == 0) std::fill_n(pixel, 4, std::uint8_t{0});
       }
     }
     return frame;
@@ -85,8 +84,6 @@ class WebpEncoder final : public AnimationEncoder {
     check_av(avcodec_receive_packet(encoder.get(), packet.get()), "encode a frame with", kEncoder);
     append(image, ByteSpan(packet->data, std::size_t(packet->size)).subspan(kHeader_bytes));
   }
-
-  bool has_alpha_;
 };
 
 /// @param contents  of an even size, as libwebp's are
@@ -98,10 +95,7 @@ void append_riff_chunk(Bytes& bytes, std::string_view type, ByteSpan contents) {
 
 class WebpSink final : public AnimationSink {
  public:
-  explicit WebpSink(const OutputRequest& request)
-      : AnimationSink(request.name, kWebpHead_bytes),
-        name_(request.name),
-        rate_(request.format.frame_rate) {
+  explicit WebpSink(const OutputRequest& request) : AnimationSink(request, kWebpHead_bytes) {
     constexpr std::uint64_t kAnimation = 0x02;
     constexpr std::uint64_t kAlpha = 0x10;  // of images
     Bytes canvas;
@@ -110,7 +104,7 @@ class WebpSink final : public AnimationSink {
     append_little_endian(canvas, std::uint64_t(request.format.height_px - 1), 3);
     Bytes animation;
     append_little_endian(animation, 0, 4);  // no background
-    append_little_endian(animation, std::uint64_t(request.settings.plays.value_or(0)), 2);
+    append_little_endian(animation, std::uint64_t(plays()), 2);
     Bytes bytes;
     piblocks::append(bytes, std::string_view("RIFF\0\0\0\0WEBP", 12));  // write_end(): the size
     append_riff_chunk(bytes, "VP8X", canvas);
@@ -121,9 +115,8 @@ class WebpSink final : public AnimationSink {
  private:
   void write_image(Bytes image, std::int64_t first, std::int64_t end) override {
     constexpr std::ptrdiff_t kDuration_at = 12;
-    const Integer duration_ms = tick_of(end, rate_, 1000) - tick_of(first, rate_, 1000);
     Bytes duration;
-    append_little_endian(duration, duration_ms.get_ui(), 3);
+    append_little_endian(duration, ticks_of(first, end, 1000), 3);
     std::ranges::copy(duration, image.begin() + kDuration_at);
     Bytes bytes;
     append_riff_chunk(bytes, "ANMF", image);
@@ -138,13 +131,12 @@ class WebpSink final : public AnimationSink {
     constexpr std::uint64_t kMaxFile_bytes = 0xFFFFFFF6 + 8ULL;
     size_bytes_ += bytes.size();
     if (size_bytes_ > kMaxFile_bytes) {
-      throw MediaError(fmt::format("webp: '{}' would exceed 4 GiB, where WebP ends", name_));
+      throw MediaError(
+          fmt::format("webp: '{}' would exceed 4 GiB, where WebP ends", request().name));
     }
     file().write(bytes);
   }
 
-  std::string name_;
-  Rational rate_;
   std::uint64_t size_bytes_ = 0;
 };
 
@@ -168,13 +160,8 @@ Output webp_output(const OutputRequest& request) {
   }
   problems.check();
   const std::int64_t longest = Integer(floor(kMaxDuration_ms * format.frame_rate / 1000)).get_si();
-  return {
-      .frames_per_chunk = kFramesPerChunk,
-      .signature = fmt::format("webp by libavcodec {}, plays {}", version_text(avcodec_version()),
-                               request.settings.plays.value_or(0)),
-      .make_encoder = [format, longest] { return std::make_unique<WebpEncoder>(format, longest); },
-      .open = [request](const Opening& /*opening*/) { return std::make_unique<WebpSink>(request); },
-      .needs_frame_before = true};
+  return animated_output<WebpEncoder, WebpSink>(
+      request, kFramesPerChunk, longest, "webp by libavcodec " + version_text(avcodec_version()));
 }
 
 }  // namespace piblocks

@@ -1,4 +1,5 @@
-// MP4 files of our own encoder.
+#include "media/mp4/mp4_file.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -7,12 +8,9 @@
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "core/output_file.hpp"
-#include "h264/mp4_writer.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/mp4/coded_sound.hpp"
 #include "media/mp4/h264_chunk.hpp"
 #include "media/output/output_kinds.hpp"
 
@@ -114,6 +112,24 @@ class Mp4File final : public FrameSink {
   std::int64_t heard_ = 0;        // samples that are in the file
 };
 
+class CodedPackets final : public PacketSource {
+ public:
+  CodedPackets(const CodedSound& sound, const SoundFormat& format)
+      : sound_(sound), end_(format.size) {}
+
+  std::optional<Packet> next() override {
+    const std::int64_t time =
+        static_cast<std::int64_t>(next_) * sound_.track.packet_samples - sound_.track.delay;
+    if (time >= end_ || next_ == sound_.packets.size()) return std::nullopt;
+    return Packet{.bytes = sound_.packets[next_++], .pts = time, .dts = time};
+  }
+
+ private:
+  const CodedSound& sound_;
+  std::int64_t end_;
+  std::size_t next_ = 0;
+};
+
 std::unique_ptr<ChunkEncoder> load_successor(const VideoFormat& format,
                                              const h264::Config& config) {
   try {
@@ -124,6 +140,10 @@ std::unique_ptr<ChunkEncoder> load_successor(const VideoFormat& format,
 }
 
 }  // namespace
+
+std::unique_ptr<PacketSource> packets_of(const CodedSound& sound, const SoundFormat& format) {
+  return std::make_unique<CodedPackets>(sound, format);
+}
 
 Output mp4_output(const OutputRequest& request) {
   if (!is_builtin(request.settings)) {

@@ -110,32 +110,22 @@ std::string frame_rate_problem(const Rational& rate) {
 /// What the kind of the output does not take.
 void check_kind(const OutputKind& kind, const OutputRequest& request, Problems& problems) {
   const EncoderSettings& settings = request.settings;
-  const bool has_settings = settings.crf || settings.preset || settings.encoder;
-  if (has_settings && !kind.has(kSettings)) {
-    problems.add(fmt::format(
-        "output: '{}' has no use for crf, preset or encoder; leave them out or write one of: {}",
-        request.name, names(kSettings)));
-  }
-  if (settings.plays && !kind.has(kPlays)) {
-    problems.add(fmt::format(
-        "output: '{}' does not say how often it plays; leave that out or write one of: {}",
-        request.name, names(kPlays)));
-  }
-  if (settings.start_number && !kind.has(kNumbers)) {
+  // @param listed  what the kinds have that could be written instead
+  const auto check = [&](bool is_asked_for, unsigned flag, unsigned listed,
+                         std::string_view problem) {
+    if (!is_asked_for || kind.has(flag)) return;
     problems.add(
-        fmt::format("output: '{}' has no numbers; leave the start number out or write one of: {}",
-                    request.name, names(kNumbers)));
-  }
-  if (request.format.has_alpha && !kind.has(kAlpha)) {
-    problems.add(fmt::format(
-        "output: '{}' cannot be transparent; use an opaque background or write one of: {}",
-        request.name, names(kPictures | kAlpha)));
-  }
-  if (!request.captions.empty() && !kind.has(kCaptions)) {
-    problems.add(
-        fmt::format("output: '{}' has no captions inside; leave them out or write one of: {}",
-                    request.name, names(kCaptions)));
-  }
+        fmt::format("output: '{}' {} or write one of: {}", request.name, problem, names(listed)));
+  };
+  check(settings.crf || settings.preset || settings.encoder, kSettings, kSettings,
+        "has no use for crf, preset or encoder; leave them out");
+  check(settings.plays.has_value(), kPlays, kPlays,
+        "does not say how often it plays; leave that out");
+  check(settings.start_number.has_value(), kNumbers, kNumbers,
+        "has no numbers; leave the start number out");
+  check(request.format.has_alpha, kAlpha, kPictures | kAlpha,
+        "cannot be transparent; use an opaque background");
+  check(!request.captions.empty(), kCaptions, kCaptions, "has no captions inside; leave them out");
   if (request.sound && !kind.has(kSound)) problems.add("output: " + no_sound_in(request.name));
 }
 

@@ -187,20 +187,12 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
                      const EncoderSettings& settings, const std::optional<SoundFormat>& sound = {},
                      bool overwrite = false, const std::vector<Caption>& captions = {});
 
-/// Whether an output of this name is sound without pictures: `*.wav`.
-bool is_sound_alone(const std::string& name);
-
-/// Whether an output of this name is numbered pictures.
-bool has_numbers(const std::string& name);
-
-/// Whether an output of this name holds vectors: `*.svg`, `*.pdf`.
-bool is_vector(const std::string& name);
-
-/// Whether an output of this name can be joined of parts.
-bool has_parts(const std::string& name);
-
-/// Whether an output of this name can have sound.
-bool takes_sound(const std::string& name);
+// Of an output of this name, whether it
+bool is_sound_alone(const std::string& name);  ///< has no pictures: `*.wav`
+bool has_numbers(const std::string& name);     ///< is numbered pictures
+bool is_vector(const std::string& name);       ///< holds vectors: `*.svg`, `*.pdf`
+bool has_parts(const std::string& name);       ///< can be joined of parts
+bool takes_sound(const std::string& name);     ///< can have sound
 /// The message for a name that cannot.
 std::string no_sound_in(const std::string& name);
 

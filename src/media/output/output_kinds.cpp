@@ -10,9 +10,8 @@
 #include <string_view>
 
 #include "h264/mp4_writer.hpp"
-#include "media/output/picture_sequence.hpp"
 #include "media/pixels/yuv.hpp"
-#include "media/png/png_mark.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 namespace {
@@ -80,24 +79,20 @@ constexpr std::int64_t kMaxFile_bytes = 0xFFFFFFFF;
 Bytes header(const SoundFormat& sound) {
   constexpr int kPcm = 1;
   const std::int64_t data_bytes = sound.size * kPair_bytes;
-  struct Field {
-    std::string_view text;  // before the number
-    std::int64_t value;
-    std::size_t size_bytes;
-  };
   Bytes bytes;
-  for (const Field& field : {Field{"RIFF", kHeader_bytes - 8 + data_bytes, 4},
-                             {"WAVEfmt ", 16, 4},
-                             {"", kPcm, 2},
-                             {"", kChannels, 2},
-                             {"", sound.rate_hz, 4},
-                             {"", std::int64_t{sound.rate_hz} * kPair_bytes, 4},
-                             {"", kPair_bytes, 2},
-                             {"", 8 * kSample_bytes, 2},
-                             {"data", data_bytes, 4}}) {
-    append(bytes, field.text);
-    append_little_endian(bytes, std::uint64_t(field.value), field.size_bytes);
-  }
+  const auto put = [&](std::string_view text, std::int64_t value, std::size_t size_bytes) {
+    append(bytes, text);
+    append_little_endian(bytes, std::uint64_t(value), size_bytes);
+  };
+  put("RIFF", kHeader_bytes - 8 + data_bytes, 4);
+  put("WAVEfmt ", 16, 4);
+  put("", kPcm, 2);
+  put("", kChannels, 2);
+  put("", sound.rate_hz, 4);
+  put("", std::int64_t{sound.rate_hz} * kPair_bytes, 4);
+  put("", kPair_bytes, 2);
+  put("", 8 * kSample_bytes, 2);
+  put("data", data_bytes, 4);
   return bytes;
 }
 
@@ -190,18 +185,6 @@ void check_duration_of_frame(const Rational& frame_rate) {
                   "most; use --fps 1/100000 or more, or write *.webm or *.png",
                   frame_rate.get_str(), longest_s.get_str()));
 }
-
-void PacketPerFrameEncoder::encode() {
-  const std::int64_t number = next_frame_++;
-  chunk_.push_back({.bytes = encode_picture(number), .pts = number, .dts = number});
-}
-
-void StreamSink::append(const EncodedChunk& chunk) {
-  counter_.take(chunk);
-  for (const Packet& packet : chunk) file_.write(packet.bytes);
-}
-
-void StreamSink::finish() { file_.finish(); }
 
 std::unique_ptr<PacketSource> pcm_packets(SampleSource& samples) {
   return std::make_unique<PcmPackets>(samples);

@@ -5,6 +5,7 @@
 #include <piblocks/error.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -67,8 +68,11 @@ std::string no_preset(std::string_view encoder);
 class PacketPerFrameEncoder : public ChunkEncoder {
  public:
   using ChunkEncoder::ChunkEncoder;
-  void begin(std::int64_t first_frame) final { next_frame_ = first_frame; }
-  void encode() final;
+  void begin(std::int64_t first_frame) override { next_frame_ = first_frame; }
+  void encode() final {
+    const std::int64_t number = next_frame_++;
+    chunk_.push_back({.bytes = encode_picture(number), .pts = number, .dts = number});
+  }
   EncodedChunk finish() final { return std::exchange(chunk_, {}); }
 
  private:
@@ -85,8 +89,11 @@ class StreamSink final : public FrameSink {
   /// @throws UsageError if the file cannot be opened.
   explicit StreamSink(const std::string& name) : file_(name) {}
 
-  void append(const EncodedChunk& chunk) override;
-  void finish() override;
+  void append(const EncodedChunk& chunk) override {
+    counter_.take(chunk);
+    for (const Packet& packet : chunk) file_.write(packet.bytes);
+  }
+  void finish() override { file_.finish(); }
 
  private:
   FrameCounter counter_;
@@ -103,6 +110,16 @@ Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk
           .open = [name = request.name](
                       const Opening& /*opening*/) { return std::make_unique<StreamSink>(name); }};
 }
+
+/// Numbered pictures, each a file: how piblocks knows its own.
+struct PictureKind {
+  Bytes (*with_mark)(ByteSpan picture);
+  bool (*has_mark)(const std::filesystem::path& path);
+  std::string_view ending;  ///< the last bytes of every file
+};
+
+/// The sinks of an output. @throws UsageError if its name is no FramePattern.
+decltype(Output::open) sequence_of(const OutputRequest& request, const PictureKind& kind);
 
 // All throw UsageError if the kind cannot hold the format or does not take a setting.
 // src/media/README.md says what each kind holds.

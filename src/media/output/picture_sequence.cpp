@@ -1,5 +1,5 @@
-#include "media/output/picture_sequence.hpp"
-
+// Numbered pictures, each a file.
+// In: a name with a number field; the pictures, encoded. Out: files that take their names together.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <piblocks/error.hpp>
@@ -13,6 +13,7 @@
 #include "core/file_set.hpp"
 #include "core/text.hpp"
 #include "media/output/frame_pattern.hpp"
+#include "media/output/output_kinds.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

@@ -42,13 +42,13 @@ class FrameReader {
   virtual bool next() = 0;
   /// What the samples mean: kRgba, or Y, Cb, Cr and alpha with their depth, chroma sharing, range
   /// and matrix. Shared chroma is repeated. Frames with the same layout can be compared exactly.
-  virtual std::string layout() const = 0;
+  virtual std::string layout() const { return std::string(kRgba); }
   /// How players change the stored pixels, such as "turned clockwise by 90 degrees", or empty.
   virtual std::string presentation() const { return {}; }
   /// The frame as it is stored. Call either this or rgb(), once a frame: the picture is moved out.
   virtual AnyImage samples() = 0;
   /// The frame's colours, at no less than the depth of the samples.
-  virtual AnyImage rgb() = 0;
+  virtual AnyImage rgb() { return samples(); }
 };
 
 }  // namespace piblocks

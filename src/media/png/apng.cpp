@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "media/output/animated_output.hpp"
-#include "media/output/output_kinds.hpp"
 #include "media/pixels/animation.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
@@ -28,26 +27,24 @@ constexpr std::size_t kApngPlace_bytes = 16;
 /// An image is its size and place, as fcTL has them, and its compressed rows.
 class ApngEncoder final : public AnimationEncoder {
  public:
-  ApngEncoder(const VideoFormat& format, std::int64_t longest)
-      : AnimationEncoder(format, longest), has_alpha_(format.has_alpha) {}
+  using AnimationEncoder::AnimationEncoder;
 
  private:
   Bytes encode_image(const ChangedPicture& picture) override {
     const PixelRect rect = picture.changed();
+    const ImageView view = picture.view();
     Bytes bytes;
     for (const int value : {rect.width_px, rect.height_px, rect.x_px, rect.y_px}) {
       append_big_endian(bytes, std::uint64_t(value), 4);
     }
     rows_.clear();
-    append_up_filtered(rows_, rect.height_px, std::size_t(rect.width_px) * packed_bytes(has_alpha_),
-                       [&](int row, std::uint8_t* to) {
-                         pack_row(picture.view(has_alpha_), rect, rect.y_px + row, to);
-                       });
+    append_up_filtered(
+        rows_, rect.height_px, std::size_t(rect.width_px) * packed_bytes(view.has_alpha),
+        [&](int row, std::uint8_t* to) { pack_row(view, rect, rect.y_px + row, to); });
     append(bytes, deflater_.compress(rows_));
     return bytes;
   }
 
-  bool has_alpha_;
   Deflater deflater_{Deflater::Form::whole};
   Bytes rows_;  // filtered
 };
@@ -55,9 +52,7 @@ class ApngEncoder final : public AnimationEncoder {
 class ApngSink final : public AnimationSink {
  public:
   explicit ApngSink(const OutputRequest& request)
-      : AnimationSink(request.name, kApngPlace_bytes),
-        rate_(request.format.frame_rate),
-        plays_(request.settings.plays.value_or(0)) {
+      : AnimationSink(request, kApngPlace_bytes), rate_(request.format.frame_rate) {
     const VideoFormat& format = request.format;
     Bytes bytes;
     append_png_header(bytes, format.width_px, format.height_px,
@@ -97,12 +92,11 @@ class ApngSink final : public AnimationSink {
     append_png_chunk(end, "IEND");
     file().write(end);
     Bytes control;
-    append_animation_control(control, images_, plays_);
+    append_animation_control(control, images_, plays());
     file().write_at(kAnimationControl, control);
   }
 
   Rational rate_;
-  int plays_;
   std::uint64_t next_sequence_ = 0;
   std::int64_t images_ = 0;
 };
@@ -111,8 +105,7 @@ class ApngSink final : public AnimationSink {
 
 Output apng_output(const OutputRequest& request) {
   constexpr std::int64_t kFramesPerChunk = 64;
-  const VideoFormat& format = request.format;
-  const Rational& rate = format.frame_rate;
+  const Rational& rate = request.format.frame_rate;
   if (rate.get_num() > kMaxTerm || rate.get_den() > kMaxTerm) {
     throw UsageError(
         fmt::format("apng: frame rate {} cannot be stored: use a fraction of numbers up to {}, "
@@ -120,13 +113,8 @@ Output apng_output(const OutputRequest& request) {
                     rate.get_str(), kMaxTerm));
   }
   const std::int64_t longest = kMaxTerm / rate.get_den().get_si();
-  return {
-      .frames_per_chunk = kFramesPerChunk,
-      .signature = fmt::format("apng by zlib {}, plays {}", zlibVersion(),
-                               request.settings.plays.value_or(0)),
-      .make_encoder = [format, longest] { return std::make_unique<ApngEncoder>(format, longest); },
-      .open = [request](const Opening& /*opening*/) { return std::make_unique<ApngSink>(request); },
-      .needs_frame_before = true};
+  return animated_output<ApngEncoder, ApngSink>(request, kFramesPerChunk, longest,
+                                                std::string("apng by zlib ") + zlibVersion());
 }
 
 }  // namespace piblocks

@@ -113,12 +113,10 @@ class ApngReader final : public FrameReader {
     }
     return true;
   }
-  std::string layout() const override { return std::string(kRgba); }
   std::string presentation() const override { return presentation_; }
   AnyImage samples() override {
     return std::visit([](const auto* picture) { return AnyImage(*picture); }, shown_);
   }
-  AnyImage rgb() override { return samples(); }
 
  private:
   void read_before_frames(const Chunk& chunk) {

@@ -23,31 +23,23 @@ constexpr std::size_t bytes_of(Packing packing) {
   return kBytes.at(std::size_t(packing));
 }
 
-/// The chunks of a file, for as long as all is well.
-class Chunks {
- public:
-  explicit Chunks(std::span<std::uint8_t> file) : file_(file) {}
-
-  struct Chunk {
-    std::string_view type;  // empty at the end of the file, and where it is damaged
-    std::span<std::uint8_t> data;
-  };
-
-  Chunk next() {
-    constexpr std::size_t kFrame_bytes = 12;  // length, type, checksum
-    if (file_.size() < kFrame_bytes) return {};
-    const std::uint64_t length = from_big_endian(file_.first(4));
-    if (length > file_.size() - kFrame_bytes) return {};
-    const auto checked = file_.subspan(4, length + 4);
-    const std::uint64_t checksum = from_big_endian(file_.subspan(length + 8, 4));
-    if (libdeflate_crc32(0, checked.data(), checked.size()) != checksum) return {};
-    file_ = file_.subspan(length + kFrame_bytes);
-    return {{reinterpret_cast<const char*>(checked.data()), 4}, checked.subspan(4)};
-  }
-
- private:
-  std::span<std::uint8_t> file_;
+struct FileChunk {
+  std::string_view type;  // empty at the end of the file, and where it is damaged
+  std::span<std::uint8_t> data;
 };
+
+/// Takes the next chunk off the front of a file.
+FileChunk take_chunk(std::span<std::uint8_t>& file) {
+  constexpr std::size_t kFrame_bytes = 12;  // length, type, checksum
+  if (file.size() < kFrame_bytes) return {};
+  const std::uint64_t length = from_big_endian(file.first(4));
+  if (length > file.size() - kFrame_bytes) return {};
+  const auto checked = file.subspan(4, length + 4);
+  const std::uint64_t checksum = from_big_endian(file.subspan(length + 8, 4));
+  if (libdeflate_crc32(0, checked.data(), checked.size()) != checksum) return {};
+  file = file.subspan(length + kFrame_bytes);
+  return {{reinterpret_cast<const char*>(checked.data()), 4}, checked.subspan(4)};
+}
 
 /// What the chunks of a file say.
 struct PackedFile {
@@ -119,12 +111,12 @@ bool may_be_skipped(std::string_view type) {
 }
 
 /// @returns false if the file is not whole, or not of the kind that is read here.
-bool take_chunks(Chunks chunks, PackedFile& file) {
-  Chunks::Chunk chunk = chunks.next();
+bool take_chunks(std::span<std::uint8_t> chunks, PackedFile& file) {
+  FileChunk chunk = take_chunk(chunks);
   if (chunk.type != "IHDR" || !take_header(chunk.data, file.image)) return false;
   bool is_data_over = false;
   while (true) {
-    chunk = chunks.next();
+    chunk = take_chunk(chunks);
     is_data_over |= file.has_data && chunk.type != "IDAT";
     if (chunk.type == "IDAT") {
       if (is_data_over) return false;
@@ -288,7 +280,7 @@ std::optional<PackedFile> inflated(std::span<std::uint8_t> file) {
     return std::nullopt;
   }
   PackedFile packed;
-  if (!take_chunks(Chunks(file.subspan(signature)), packed)) return std::nullopt;
+  if (!take_chunks(file.subspan(signature), packed)) return std::nullopt;
   const PackedImage& image = packed.image;
   packed.rows = inflate(packed.data, (image.row_bytes() + 1) * std::size_t(image.height_px));
   if (!packed.rows) return std::nullopt;

@@ -4,8 +4,31 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "core/descriptor.hpp"
 
 namespace piblocks {
+namespace fs = std::filesystem;
+namespace {
+
+/// The offset of the first chunk after IHDR.
+constexpr std::size_t kMark_at = 33;
+
+/// A tEXt chunk (PNG specification, section 11.3.4.3): keyword, zero, text.
+Bytes chunk_of(PngMark mark) {
+  Bytes text;
+  append(text, std::string_view("Software\0", 9));
+  append(text, mark == PngMark::sequence ? "piblocks render" : "piblocks compare --diff");
+  Bytes chunk;
+  append_png_chunk(chunk, "tEXt", text);
+  return chunk;
+}
+
+}  // namespace
 
 std::size_t begin_png_chunk(Bytes& png, std::string_view type) {
   const std::size_t start = png.size();
@@ -41,6 +64,35 @@ void append_png_header(Bytes& png, int width_px, int height_px, PngColors colors
 void append_png_srgb(Bytes& png) {
   constexpr std::uint8_t kPerceptual = 0;
   append_png_chunk(png, "sRGB", {&kPerceptual, 1});
+}
+
+Bytes with_png_mark(ByteSpan png, PngMark mark) {
+  const Bytes chunk = chunk_of(mark);
+  Bytes marked;
+  marked.reserve(png.size() + chunk.size());
+  append(marked, png.first(kMark_at));
+  append(marked, chunk);
+  append(marked, png.subspan(kMark_at));
+  return marked;
+}
+
+bool has_png_mark(const fs::path& path, PngMark mark) {
+  return has_bytes(path, kMark_at, chunk_of(mark));
+}
+
+bool has_bytes(const fs::path& path, std::size_t at, ByteSpan expected) {
+  std::error_code unknown;
+  if (!fs::is_regular_file(fs::symlink_status(path, unknown))) return false;
+  std::string found(expected.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(at));
+  file.read(found.data(), static_cast<std::streamsize>(found.size()));
+  if (file.bad()) {
+    throw IoError("output: cannot read '" + path.string() + "': " + error_text(errno));
+  }
+  return file && std::ranges::equal(found, expected, [](char a, std::uint8_t b) {
+           return static_cast<std::uint8_t>(a) == b;
+         });
 }
 
 Deflater::Deflater(Form form)

@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -64,6 +65,24 @@ Bytes encode_png_samples(const DeepImage& picture);
 /// @throws MediaError as encode_png()
 Bytes encode_png_palette(int width_px, int height_px, std::span<const std::uint32_t> palette,
                          const std::function<void(int row, std::uint8_t* indices)>& pack_row);
+
+/// What a picture belongs to, which a chunk of text at a fixed place says. A command replaces and
+/// removes only pictures of its own kind.
+enum class PngMark {
+  sequence,   ///< frames of `render -o %06d.png`
+  difference  ///< `compare --diff`
+};
+
+/// @param png  with a header as append_png_header() makes it
+Bytes with_png_mark(ByteSpan png, PngMark mark);
+
+/// Whether this is a file, not a symbolic link, that with_png_mark() made. False if this user may
+/// not read it. @throws IoError if reading fails.
+bool has_png_mark(const std::filesystem::path& path, PngMark mark);
+
+/// Whether this is a file, not a symbolic link, with these bytes at a place of it.
+/// @throws IoError if reading fails.
+bool has_bytes(const std::filesystem::path& path, std::size_t at, ByteSpan expected);
 
 /// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table
 /// in tests/benchmark/encoders.md. Used by one thread at a time.

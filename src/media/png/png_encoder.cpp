@@ -9,10 +9,8 @@
 #include <span>
 
 #include "media/output/output_kinds.hpp"
-#include "media/output/picture_sequence.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
-#include "media/png/png_mark.hpp"
 
 namespace piblocks {
 namespace {
@@ -165,6 +163,22 @@ Bytes with_rows(int width_px, int height_px, PngColors colors, ByteSpan palette,
   return png;
 }
 
+/// A file of all four channels. @tparam kShifts  of the bytes of a pixel in its word, in order
+template <int... kShifts, typename Picture>
+Bytes with_samples(const Picture& picture) {
+  constexpr std::size_t kBytes = sizeof...(kShifts);
+  Bytes rows;
+  append_up_filtered(rows, picture.height_px, kBytes * std::size_t(picture.width_px),
+                     [&](int row, std::uint8_t* to) {
+                       const auto* const words =
+                           picture.words.data() + std::ptrdiff_t{row} * picture.width_px;
+                       for (const auto word : std::span(words, words + picture.width_px)) {
+                         ((*to++ = std::uint8_t(word >> kShifts)), ...);
+                       }
+                     });
+  return with_rows(picture.width_px, picture.height_px, PngColors::rgba, {}, rows, 2 * kBytes);
+}
+
 }  // namespace
 
 Bytes encode_png(const ImageView& image) {
@@ -179,28 +193,11 @@ Bytes encode_png(const ImageView& image) {
 Bytes encode_png_samples(const Image& picture) {
   const auto is_opaque = [](std::uint32_t word) { return word >= 0xff000000; };
   if (std::ranges::all_of(picture.words, is_opaque)) return encode_png(picture.view());
-  Bytes rows;
-  append_up_filtered(
-      rows, picture.height_px, 4 * std::size_t(picture.width_px), [&](int row, std::uint8_t* to) {
-        const auto* const words = picture.words.data() + std::ptrdiff_t{row} * picture.width_px;
-        for (const std::uint32_t word : std::span(words, words + picture.width_px)) {
-          for (const int shift : {16, 8, 0, 24}) *to++ = std::uint8_t(word >> shift);
-        }
-      });
-  return with_rows(picture.width_px, picture.height_px, PngColors::rgba, {}, rows);
+  return with_samples<16, 8, 0, 24>(picture);
 }
 
 Bytes encode_png_samples(const DeepImage& picture) {
-  Bytes rows;
-  append_up_filtered(
-      rows, picture.height_px, 8 * std::size_t(picture.width_px), [&](int row, std::uint8_t* to) {
-        const auto* const words = picture.words.data() + std::ptrdiff_t{row} * picture.width_px;
-        for (const std::uint64_t word : std::span(words, words + picture.width_px)) {
-          for (const int shift : {40, 32, 24, 16, 8, 0, 56, 48})
-            *to++ = std::uint8_t(word >> shift);
-        }
-      });
-  return with_rows(picture.width_px, picture.height_px, PngColors::rgba, {}, rows, 16);
+  return with_samples<40, 32, 24, 16, 8, 0, 56, 48>(picture);
 }
 
 Bytes encode_png_palette(int width_px, int height_px, std::span<const std::uint32_t> palette,

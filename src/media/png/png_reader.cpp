@@ -38,23 +38,6 @@ constexpr std::array<const char*, 8> kTurns = {"",
                                                "mirrored and turned clockwise by 270 degrees",
                                                "turned clockwise by 270 degrees"};
 
-/// Numbers of a TIFF structure, which says in which order it has their bytes.
-class TiffNumbers {
- public:
-  explicit TiffNumbers(ByteSpan bytes)
-      : bytes_(bytes), is_big_(!bytes.empty() && bytes[0] == 'M') {}
-
-  std::optional<std::uint64_t> at(std::size_t offset, std::size_t size_bytes) const {
-    if (offset > bytes_.size() || size_bytes > bytes_.size() - offset) return std::nullopt;
-    const ByteSpan number = bytes_.subspan(offset, size_bytes);
-    return is_big_ ? from_big_endian(number) : from_little_endian(number);
-  }
-
- private:
-  ByteSpan bytes_;
-  bool is_big_;
-};
-
 using FilePtr = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 FilePtr open_file(const fs::path& path) {
@@ -271,13 +254,6 @@ AnyImage samples_of(PngFile& file) {
   return file.read_flat();
 }
 
-void refuse_animation(const PngFile& file, const fs::path& path) {
-  if (!file.is_animated()) return;
-  throw MediaError(fmt::format(
-      "png: cannot read '{}' as one picture: it is animated; compare it by itself, as a video",
-      path.string()));
-}
-
 /// One frame.
 class PngReader final : public FrameReader {
  public:
@@ -295,15 +271,17 @@ class PngReader final : public FrameReader {
       }
     }
     PngFile file = place_ == Place::in_memory ? file_in_memory(path_, file_) : PngFile(path_);
-    refuse_animation(file, path_);
+    if (file.is_animated()) {
+      throw MediaError(fmt::format(
+          "png: cannot read '{}' as one picture: it is animated; compare it by itself, as a video",
+          path_.string()));
+    }
     samples_ = samples_of(file);
     presentation_ = file.presentation();  // the chunk may follow the pixels
     return true;
   }
-  std::string layout() const override { return std::string(kRgba); }
   std::string presentation() const override { return presentation_; }
   AnyImage samples() override { return std::move(samples_); }
-  AnyImage rgb() override { return std::move(samples_); }
 
  private:
   fs::path path_;
@@ -319,25 +297,26 @@ class PngReader final : public FrameReader {
 std::string presentation_by_exif(ByteSpan exif) {
   constexpr std::uint64_t kOrientation = 0x112;
   constexpr std::size_t kEntry_bytes = 12;
-  const TiffNumbers numbers(exif);
-  const auto directory = numbers.at(4, 4);
-  const auto count = directory ? numbers.at(*directory, 2) : std::nullopt;
+  // A TIFF structure says in which order it has the bytes of its numbers.
+  const bool is_big = !exif.empty() && exif[0] == 'M';
+  const auto number_at = [&](std::size_t offset,
+                             std::size_t size_bytes) -> std::optional<std::uint64_t> {
+    if (offset > exif.size() || size_bytes > exif.size() - offset) return std::nullopt;
+    const ByteSpan number = exif.subspan(offset, size_bytes);
+    return is_big ? from_big_endian(number) : from_little_endian(number);
+  };
+  const auto directory = number_at(4, 4);
+  const auto count = directory ? number_at(*directory, 2) : std::nullopt;
   for (std::size_t i = 0; i < count.value_or(0); ++i) {
     const std::size_t entry = *directory + 2 + i * kEntry_bytes;
-    if (numbers.at(entry, 2) != kOrientation) continue;
-    const std::uint64_t value = numbers.at(entry + 8, 2).value_or(0);
+    if (number_at(entry, 2) != kOrientation) continue;
+    const std::uint64_t value = number_at(entry + 8, 2).value_or(0);
     return 1 <= value && value <= kTurns.size() ? kTurns.at(value - 1) : "";
   }
   return {};
 }
 
 Image read_png(const fs::path& path) { return PngFile(path).read_flat(); }
-
-AnyImage read_png_samples(const fs::path& path) {
-  PngFile file(path);
-  refuse_animation(file, path);
-  return samples_of(file);
-}
 
 AnyImage read_png_samples(const fs::path& path, std::span<const std::uint8_t> bytes) {
   PngFile png = file_in_memory(path, bytes);

@@ -22,10 +22,8 @@ namespace piblocks {
 ///         kMaxFrame_px.
 Image read_png(const std::filesystem::path& path);
 
-/// Keeps samples of 16 bits. @throws as read_png(), and MediaError if the file is animated.
-AnyImage read_png_samples(const std::filesystem::path& path);
-
-/// The same of a PNG file in memory, animated or not. @param path  for messages
+/// A PNG file in memory, animated or not, with samples of 16 bits. @param path  for messages
+/// @throws as read_png()
 AnyImage read_png_samples(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
 /// Whether this is a regular file that begins as a PNG does.
@@ -45,7 +43,7 @@ std::unique_ptr<FrameReader> read_apng(const std::filesystem::path& path);
 /// Empty if it says nothing that can be understood.
 std::string presentation_by_exif(ByteSpan exif);
 
-/// A PNG file as the only frame. Reading throws as read_png_samples().
+/// A PNG file as the only frame. Reading throws as read_png(), and MediaError if it is animated.
 /// @param file  what is in it; it is opened only if libpng has to read it, or if this is empty.
 std::unique_ptr<FrameReader> read_png_frame(std::filesystem::path path, Bytes file = {});
 

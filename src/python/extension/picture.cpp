@@ -26,9 +26,7 @@ class SampleReader final : public FrameReader {
   explicit SampleReader(AnyImage samples) : samples_(std::move(samples)) {}
 
   bool next() override { return true; }
-  std::string layout() const override { return std::string(kRgba); }
   AnyImage samples() override { return samples_; }
-  AnyImage rgb() override { return samples_; }
 
  private:
   AnyImage samples_;
