@@ -89,8 +89,9 @@ DrawList still_picture(const Film& film, const Instant& instant);
 /// The bytes of a PNG file with the pixels of a frame. @throws DrawError, MediaError, Interrupted
 std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& stop);
 
-/// Each picture is the still_picture() of its instant. @throws as still_picture(); Interrupted
-std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
+/// Each picture is the still_picture() of its instant, with its time. @throws as still_picture();
+/// Interrupted
+std::vector<CaptionedPicture> sheet_pictures(const FilmRun& run,
                                              const std::vector<Instant>& instants,
                                              const OnProgress& on_progress = {},
                                              const std::stop_token& stop = {});

@@ -129,7 +129,8 @@ void expect_everywhere(const TwoBlocks& system) {
     SCOPED_TRACE(exact_text(at.instant));
     const std::string count = at.count.get_str();
     EXPECT_EQ(count_of(still_picture(scene, at.instant)), count);
-    EXPECT_EQ(count_of(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
+    EXPECT_EQ(count_of(sheet_pictures(run_of(scene), {at.instant}).front().picture), count)
+        << "sheet";
     expect_in_films(scene, at);
     expect_in_texts(scene, at);
   }
@@ -159,7 +160,8 @@ TEST(CountsShown, AreInTheBaseOfTheScene) {
     for (const Anchored& at : anchors_of(*log)) {
       const std::string count = at.count.get_str(base);
       EXPECT_EQ(count_of(still_picture(scene, at.instant)), count);
-      EXPECT_EQ(count_of(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
+      EXPECT_EQ(count_of(sheet_pictures(run_of(scene), {at.instant}).front().picture), count)
+          << "sheet";
       expect_in_texts(scene, at);
     }
   }
