@@ -2,8 +2,10 @@
 // In: PNG files or frames of videos. Out: what is found about them, with the pictures for reports.
 #pragma once
 
+#include <fmt/format.h>
 #include <piblocks/compare.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,6 +30,9 @@ struct Fetched {
 };
 
 Fetched fetch_picture(const ListedPicture& picture);
+
+/// The key of a frame of a video.
+inline std::string frame_key(std::int64_t number) { return fmt::format("frame-{:06}", number); }
 
 struct PictureSize {
   int width_px = 0;
