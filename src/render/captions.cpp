@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/text.hpp"
-#include "render/film_words.hpp"
+#include "render/video_text.hpp"
 
 namespace piblocks {
 namespace {
