@@ -46,25 +46,21 @@ class FrameSide {
   virtual bool goes_on_after_failure() const = 0;
 };
 
-struct PlacedPicture {
-  std::int64_t step = 0;
-  ListedPicture picture;
-};
-
-/// PNG files, in the order of their steps.
+/// PNG files: those of a pattern by their numbers, counted from the first; others in their order.
 class PictureSide final : public FrameSide {
  public:
-  explicit PictureSide(std::vector<PlacedPicture> pictures) : pictures_(std::move(pictures)) {}
+  explicit PictureSide(std::vector<ListedPicture> pictures) : pictures_(std::move(pictures)) {}
 
   std::optional<std::int64_t> next_step() const override {
     if (fetched_ == pictures_.size()) return std::nullopt;
-    return pictures_[fetched_].step;
+    const std::optional<std::int64_t>& number = pictures_[fetched_].number;
+    return number ? *number - pictures_.front().number.value_or(0) : std::int64_t(fetched_);
   }
-  Fetched fetch() override { return fetch_picture(pictures_[fetched_++].picture); }
+  Fetched fetch() override { return fetch_picture(pictures_[fetched_++]); }
   bool goes_on_after_failure() const override { return true; }
 
  private:
-  std::vector<PlacedPicture> pictures_;
+  std::vector<ListedPicture> pictures_;
   std::size_t fetched_ = 0;
 };
 
@@ -200,44 +196,10 @@ std::string FrameShift::text() const {
                      counted(std::abs(best), "frame"), best > 0 ? "before" : "after");
 }
 
-/// Takes compared pairs in their order.
-class PairTaker {
- public:
-  PairTaker(const ComparisonJob& job, Rows& rows)
-      : job_(job), rows_(rows), hides_(job.masks.size()) {}
-
-  void take(ComparedPair pair) {
-    is_compared_ |= pair.is_compared;
-    for (const std::size_t mask : pair.mask_indices) hides_[mask] = true;
-    rows_.take(std::move(pair.row), pair.has_reference, pair.has_actual);
-  }
-  /// @throws UsageError if a mask lies outside of every picture.
-  void finish() const {
-    if (!is_compared_) return;
-    for (std::size_t i = 0; i < hides_.size(); ++i) {
-      const Mask& mask = job_.masks[i];
-      if (hides_[i] || !mask.must_hide) continue;
-      throw UsageError(
-          mask.name_pattern.empty()
-              ? fmt::format("compare: the mask {} lies outside of every picture that is compared",
-                            mask.text)
-              : fmt::format("compare: the mask {} hides nothing: no picture that is compared has "
-                            "this name, or the mask lies outside of it",
-                            mask.text));
-    }
-  }
-
- private:
-  const ComparisonJob& job_;
-  Rows& rows_;
-  std::vector<bool> hides_;  // of each mask: a part of some picture
-  bool is_compared_ = false;
-};
-
 /// Compares frame by frame. Both sides are read at once, since reading is nearly all of the work.
 /// @returns how the frames of one side are shifted, if they are
 std::string compare_sides(FrameSide& reference, FrameSide& actual, const ComparisonJob& job,
-                          PairTaker& taker, const std::stop_token& stop) {
+                          Rows& rows, const std::stop_token& stop) {
   FrameShift shift;
   while (true) {
     check_stop(stop);
@@ -259,7 +221,7 @@ std::string compare_sides(FrameSide& reference, FrameSide& actual, const Compari
     if (expected.is_there || found.is_there) {
       ComparedPair pair = compare_frames(expected, found, job);
       shift.add(first.second ? *a : *b, pair.row);
-      taker.take(std::move(pair));
+      rows.take(std::move(pair));
     }
     if (ends) return shift.text();
   }
@@ -280,30 +242,18 @@ bool is_video(const std::string& name) {
   }
 }
 
-/// The pictures of a list, at the steps of a video beside it.
-std::vector<PlacedPicture> placed_in_order(PictureList list) {
-  std::vector<PlacedPicture> placed;
-  const std::int64_t first = list.pictures.empty() ? 0 : list.pictures[0].number.value_or(0);
-  for (ListedPicture& picture : list.pictures) {
-    const auto place = static_cast<std::int64_t>(placed.size());
-    const std::int64_t step = picture.number ? *picture.number - first : place;
-    placed.push_back({step, std::move(picture)});
-  }
-  return placed;
-}
-
 std::unique_ptr<FrameSide> open_side(const std::string& name, const ComparisonJob& job, Rows& rows,
                                      const std::stop_token& stop) {
   if (is_video(name)) return std::make_unique<VideoSide>(name, stop);
   PictureList list = list_pictures(name, job.is_recursive);
   rows.set_problem(list.problem);
-  return std::make_unique<PictureSide>(placed_in_order(std::move(list)));
+  return std::make_unique<PictureSide>(std::move(list.pictures));
 }
 
 /// A pair for each processor; a lone pair has two.
 void compare_pairs(const PictureList& reference, const PictureList& actual,
-                   const std::vector<PicturePair>& pairs, const ComparisonJob& job,
-                   PairTaker& taker, const std::stop_token& stop) {
+                   const std::vector<PicturePair>& pairs, const ComparisonJob& job, Rows& rows,
+                   const std::stop_token& stop) {
   const auto compare_pair = [&](std::int64_t index, const std::stop_token&) {
     const PicturePair& pair = pairs[std::size_t(index)];
     if (pair.reference && pair.actual) {
@@ -315,18 +265,17 @@ void compare_pairs(const PictureList& reference, const PictureList& actual,
     };
     return compare_frames(fetched(reference, pair.reference), fetched(actual, pair.actual), job);
   };
-  if (pairs.size() == 1) return taker.take(compare_pair(0, stop));
+  if (pairs.size() == 1) return rows.take(compare_pair(0, stop));
   using Pool = OrderedPool<ComparedPair>;
   Pool pool(
       std::ssize(pairs), processor_count(), [&] { return Pool::Task(compare_pair); },
       [](const ComparedPair& pair) { return pair.held_bytes; });
-  while (auto pair = pool.take(stop)) taker.take(*std::move(pair));
+  while (auto pair = pool.take(stop)) rows.take(*std::move(pair));
   check_stop(stop);
 }
 
 /// Lines up two lists of pictures by name or number, and compares them.
-void compare_lists(const ComparisonJob& job, Rows& rows, PairTaker& taker,
-                   const std::stop_token& stop) {
+void compare_lists(const ComparisonJob& job, Rows& rows, const std::stop_token& stop) {
   const PictureList reference = list_pictures(job.reference, job.is_recursive);
   const PictureList actual = list_pictures(job.actual, job.is_recursive);
   const std::vector<PicturePair> pairs = paired(reference, actual);
@@ -345,41 +294,31 @@ void compare_lists(const ComparisonJob& job, Rows& rows, PairTaker& taker,
                     "FOLDER/%06d.png pair pictures by number",
                     job.actual, job.reference));
   }
-  compare_pairs(reference, actual, pairs, job, taker, stop);
-}
-
-void compare_frames_of(const ComparisonJob& job, Rows& rows, const std::stop_token& stop) {
-  PairTaker taker(job, rows);
-  if (!is_video(job.reference) && !is_video(job.actual)) {
-    compare_lists(job, rows, taker, stop);
-  } else {
-    const auto reference = open_side(job.reference, job, rows, stop);
-    const auto actual = open_side(job.actual, job, rows, stop);
-    rows.set_note(compare_sides(*reference, *actual, job, taker, stop));
-  }
-  taker.finish();
+  compare_pairs(reference, actual, pairs, job, rows, stop);
 }
 
 }  // namespace
 
 ComparisonResult compare_pair(const Fetched& reference, const Fetched& actual,
                               const ComparisonJob& job, const OnFrame& on_frame) {
-  Rows rows(on_frame);
-  PairTaker taker(job, rows);
-  taker.take(compare_frames(reference, actual, job));
-  taker.finish();
-  return rows.finish(job);
+  Rows rows(job, on_frame);
+  rows.take(compare_frames(reference, actual, job));
+  return rows.finish();
 }
 
 ComparisonResult compare_files(const ComparisonJob& job, const OnFrame& on_frame,
                                const std::stop_token& stop) {
-  Rows rows(on_frame);
+  Rows rows(job, on_frame);
   if (is_framehash(job.reference) || is_framehash(job.actual)) {
     compare_hashes(job, rows);
+  } else if (is_video(job.reference) || is_video(job.actual)) {
+    const auto reference = open_side(job.reference, job, rows, stop);
+    const auto actual = open_side(job.actual, job, rows, stop);
+    rows.set_note(compare_sides(*reference, *actual, job, rows, stop));
   } else {
-    compare_frames_of(job, rows, stop);
+    compare_lists(job, rows, stop);
   }
-  return rows.finish(job);
+  return rows.finish();
 }
 
 }  // namespace piblocks

@@ -52,6 +52,9 @@ struct ComparedPair {
   std::size_t held_bytes = 0;  ///< by the functions, about
 };
 
+/// Adds a reason why a frame cannot be read. The same reason on both sides is said once.
+void add_unreadable(FrameComparison& row, const std::string& problem);
+
 /// @throws UsageError as compare()
 ComparedPair compare_frames(const Fetched& reference, const Fetched& actual,
                             const ComparisonJob& job);

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/descriptor.hpp"
 #include "core/input_file.hpp"
@@ -69,12 +70,12 @@ void compare_headers(const FramehashFile& reference, const FramehashFile& actual
   const auto line = [](auto at, const auto& header) {
     return at == header.end() ? std::string("nothing") : "'" + *at + "'";
   };
-  FrameComparison row;
-  row.name = "header";
-  row.outcome = Outcome::mismatch;
-  row.problem = fmt::format("{} instead of {}", line(differs.in2, actual.header),
-                            line(differs.in1, reference.header));
-  rows.take(row, false, false);
+  ComparedPair pair;
+  pair.row.name = "header";
+  pair.row.outcome = Outcome::mismatch;
+  pair.row.problem = fmt::format("{} instead of {}", line(differs.in2, actual.header),
+                                 line(differs.in1, reference.header));
+  rows.take(std::move(pair));
 }
 
 }  // namespace
@@ -119,22 +120,22 @@ void compare_hashes(const ComparisonJob& job, Rows& rows) {
   if (job.tolerance != Tolerance() || !job.masks.empty()) {
     throw UsageError("compare: hashes of frames know no tolerance and no masks");
   }
-  FrameComparison unreadable;
-  const auto reference = read(job.reference, rows, unreadable);
-  const auto actual = read(job.actual, rows, unreadable);
-  if (!reference || !actual) return rows.take(unreadable, true, true);
+  ComparedPair unreadable{.row = {}, .has_reference = true, .has_actual = true};
+  const auto reference = read(job.reference, rows, unreadable.row);
+  const auto actual = read(job.actual, rows, unreadable.row);
+  if (!reference || !actual) return rows.take(std::move(unreadable));
   compare_headers(*reference, *actual, rows);
   const std::size_t count = std::max(reference->frames.size(), actual->frames.size());
   for (std::size_t i = 0; i < count; ++i) {
     const bool has_reference = i < reference->frames.size();
     const bool has_actual = i < actual->frames.size();
-    FrameComparison row;
-    row.name = fmt::format("frame {}", i);
-    row.outcome = !has_actual                                 ? Outcome::missing
-                  : !has_reference                            ? Outcome::added
-                  : reference->frames[i] == actual->frames[i] ? Outcome::equal
-                                                              : Outcome::different;
-    rows.take(row, has_reference, has_actual);
+    ComparedPair pair{.row = {}, .has_reference = has_reference, .has_actual = has_actual};
+    pair.row.name = fmt::format("frame {}", i);
+    pair.row.outcome = !has_actual                                 ? Outcome::missing
+                       : !has_reference                            ? Outcome::added
+                       : reference->frames[i] == actual->frames[i] ? Outcome::equal
+                                                                   : Outcome::different;
+    rows.take(std::move(pair));
   }
 }
 

@@ -1,18 +1,22 @@
 #include "golden/rows.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 
 #include <array>
 #include <numeric>
 
 namespace piblocks {
 
-void Rows::take(FrameComparison row, bool has_reference, bool has_actual) {
+void Rows::take(ComparedPair pair) {
+  is_compared_ |= pair.is_compared;
+  for (const std::size_t mask : pair.mask_indices) hides_[mask] = true;
+  FrameComparison& row = pair.row;
   row.number = number_++;
   if (row.key.empty()) row.key = row.name;
   ++result_.rows.at(static_cast<std::size_t>(row.outcome));
-  result_.reference_frames += has_reference ? 1 : 0;
-  result_.actual_frames += has_actual ? 1 : 0;
+  result_.reference_frames += pair.has_reference ? 1 : 0;
+  result_.actual_frames += pair.has_actual ? 1 : 0;
   const bool differs = row.difference ? !row.difference->is_equal()  // also if it is accepted
                                       : row.outcome == Outcome::different;
   if (differs) ++result_.different_frames;
@@ -20,27 +24,37 @@ void Rows::take(FrameComparison row, bool has_reference, bool has_actual) {
   on_frame_(row);
 }
 
-ComparisonResult Rows::finish(const ComparisonJob& job) {
+void Rows::check_masks() const {
+  if (!is_compared_) return;
+  for (std::size_t i = 0; i < hides_.size(); ++i) {
+    const Mask& mask = job_.masks[i];
+    if (hides_[i] || !mask.must_hide) continue;
+    throw UsageError(
+        mask.name_pattern.empty()
+            ? fmt::format("compare: the mask {} lies outside of every picture that is compared",
+                          mask.text)
+            : fmt::format("compare: the mask {} hides nothing: no picture that is compared has "
+                          "this name, or the mask lies outside of it",
+                          mask.text));
+  }
+}
+
+ComparisonResult Rows::finish() {
+  check_masks();
   const bool has_reference = result_.reference_frames > 0;
   const bool has_actual = result_.actual_frames > 0;
   // What cannot be read may hide all frames of the other side.
   if ((!has_reference || !has_actual) && result_.worst() != Outcome::unreadable) {
     set_problem(
-        fmt::format("there is no frame in '{}'", has_reference ? job.actual : job.reference));
+        fmt::format("there is no frame in '{}'", has_reference ? job_.actual : job_.reference));
   }
   if (!has_reference && !has_actual) {
-    FrameComparison row;
-    row.name = job.actual;
-    row.outcome = Outcome::missing;
-    take(row, false, false);
+    ComparedPair nothing;
+    nothing.row.name = job_.actual;
+    nothing.row.outcome = Outcome::missing;
+    take(std::move(nothing));
   }
   return result_;
-}
-
-void add_unreadable(FrameComparison& row, const std::string& problem) {
-  row.outcome = Outcome::unreadable;
-  if (problem == row.problem) return;
-  row.problem += (row.problem.empty() ? "" : "; ") + problem;
 }
 
 std::int64_t ComparisonResult::total() const {

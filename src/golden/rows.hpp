@@ -7,6 +7,9 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "golden/frame_pair.hpp"
 
 namespace piblocks {
 
@@ -14,11 +17,11 @@ using OnFrame = std::function<void(const FrameComparison&)>;
 
 class Rows {
  public:
-  explicit Rows(OnFrame on_frame) : on_frame_(std::move(on_frame)) {}
+  Rows(const ComparisonJob& job, OnFrame on_frame)
+      : job_(job), on_frame_(std::move(on_frame)), hides_(job.masks.size()) {}
 
   /// Numbers the row, counts it, and hands it on.
-  /// @param has_reference, has_actual  on which sides it has a frame
-  void take(FrameComparison row, bool has_reference, bool has_actual);
+  void take(ComparedPair pair);
 
   /// Notes why a side has no frame, or why no picture has a partner. The first reason stays.
   void set_problem(const std::string& problem) {
@@ -26,15 +29,18 @@ class Rows {
   }
   void set_note(const std::string& note) { result_.note = note; }
   /// The result. A comparison in which a side has no frame is never equal.
-  ComparisonResult finish(const ComparisonJob& job);
+  /// @throws UsageError if a mask lies outside of every picture.
+  ComparisonResult finish();
 
  private:
+  void check_masks() const;
+
+  const ComparisonJob& job_;
   OnFrame on_frame_;
+  std::vector<bool> hides_;  // of each mask: a part of some picture
+  bool is_compared_ = false;
   ComparisonResult result_;
   std::int64_t number_ = 0;
 };
-
-/// Adds a reason why a frame cannot be read. The same reason on both sides is said once.
-void add_unreadable(FrameComparison& row, const std::string& problem);
 
 }  // namespace piblocks
