@@ -53,6 +53,17 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
 /// The names of all these files, in the bundle's folder.
 std::vector<std::string> bundle_files(const RenderJob& job);
 
+/// For LaTeX beamer: a frame's content for a film of one segment, else a frame for each shot. Names
+/// all files of the shots.
+std::string latex_slides(const Film& film, const std::string& video);
+
+/// A <section> of reveal.js for the film, or for each shot. The poster of a shot is the last
+/// picture of the shot before, so that nothing flashes.
+std::string reveal_slides(const Film& film, const std::string& video);
+
+/// A flat OpenDocument presentation with a slide for each shot.
+std::string impress_slides(const Film& film, const std::string& video);
+
 /// join() of the shards of a silent MP4, to one with sound that was encoded elsewhere.
 /// @param sound  of the whole film; null: it stays silent
 Rendered join_with_sound(const std::vector<std::string>& parts, const std::string& output,
