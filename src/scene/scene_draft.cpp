@@ -152,13 +152,8 @@ void SceneDraft::read_bodies(const std::string& path, TomlEntry& entry) {
 
 /// @return whether it is a key of the box, or of a wall that recoils, moves or is not there
 bool SceneDraft::set_wall(const std::string& key, const Values& values) {
-  if (key == "box.x") {
-    bodies_.set_box_x(parse_box_side(values));
-  } else if (key == "box.y") {
-    bodies_.set_box_y(parse_box_side(values));
-  } else if (key == "box.x-velocity" || key == "box.y-velocity") {
-    bodies_.set_box_velocity(key == "box.x-velocity" ? 0 : 1, parse_box_velocity(values));
-  } else if (key == "wall.velocity") {
+  if (bodies_.set_box(key, values)) return true;
+  if (key == "wall.velocity") {
     wall_velocity_ = parse_rational(single(values));
   } else if (key == "wall.face") {
     has_wall_ = values != Values{"-inf"};
