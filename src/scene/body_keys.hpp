@@ -12,7 +12,6 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/problem_lines.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "scene/body_keys.hpp"
-#include "scene/problem_lines.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 

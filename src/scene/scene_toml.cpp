@@ -1,5 +1,3 @@
-#include "scene/scene_toml.hpp"
-
 #include <fmt/format.h>
 
 #include <array>

@@ -10,7 +10,6 @@
 #include "core/text.hpp"
 #include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
-#include "scene/scene_toml.hpp"
 
 namespace piblocks::web {
 namespace {
