@@ -39,13 +39,9 @@ std::string line_of(const std::string& file, const FrameComparison& row) {
 
 }  // namespace
 
-void GoldenFindings::show(Outcome outcome, std::string line) {
-  if (shown_.add(outcome, std::move(line))) ++left_;
-}
-
 void GoldenFindings::add(Outcome outcome, const std::string& file, const std::string& what) {
   ++pictures_.at(static_cast<std::size_t>(outcome));
-  show(outcome, fmt::format("{}: {}", file, what));
+  shown_.add(outcome, fmt::format("{}: {}", file, what));
 }
 
 void GoldenFindings::compare(const fs::path& reference, const fs::path& actual,
@@ -61,13 +57,13 @@ void GoldenFindings::compare_hashes(const ComparisonJob& job, const std::string&
   std::int64_t number = 0;
   std::optional<Frames> open;
   const auto close = [&] {
-    if (open) show(open->outcome, fmt::format("{}: {}", file, text_of(*open)));
+    if (open) shown_.add(open->outcome, fmt::format("{}: {}", file, text_of(*open)));
     open.reset();
   };
   const auto on_row = [&](const FrameComparison& row) {
     const bool is_frame = is_of_frame(row.outcome);
     ++(is_frame ? frames_ : pictures_).at(static_cast<std::size_t>(row.outcome));
-    if (!is_frame) return show(row.outcome, line_of(file, row));
+    if (!is_frame) return shown_.add(row.outcome, line_of(file, row));
     const std::int64_t frame = number++;
     if (open && row.outcome != open->outcome) close();
     if (row.outcome == Outcome::equal) return;
@@ -84,7 +80,7 @@ void GoldenFindings::compare_pictures(const ComparisonJob& job, const std::strin
   const auto on_row = [&](const FrameComparison& row) {
     ++pictures_.at(static_cast<std::size_t>(row.outcome));
     if (row.is_accepted()) return;
-    show(row.outcome, line_of(file, row));
+    shown_.add(row.outcome, line_of(file, row));
     if (pictures == nullptr || !row.difference || pictures->count() == kMaxShown) return;
     for (const FramePicture& picture : pictures_of(row)) {
       pictures->add(file, picture.kind, picture.png);
@@ -107,13 +103,6 @@ const char* GoldenFindings::outcome() const {
   const bool differs = frames_.at(kOther) > 0 || pictures_.at(kOther) > 0;
   const bool lacks_files_only = found == Outcome::added && frames_.at(kAdded) == 0 && !differs;
   return lacks_files_only ? "incomplete" : "different";
-}
-
-std::vector<std::string> GoldenFindings::lines() const {
-  std::vector<std::string> lines;
-  shown_.for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
-  if (left_ > 0) lines.push_back(fmt::format("… and {} more", left_));
-  return lines;
 }
 
 std::string GoldenFindings::counts() const {

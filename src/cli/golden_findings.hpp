@@ -31,7 +31,7 @@ class GoldenFindings {
   /// "unreadable".
   const char* outcome() const;
   /// The first of the most severe ones, and how many more there are.
-  std::vector<std::string> lines() const;
+  std::vector<std::string> lines() const { return shown_.all(); }
   /// "236 of 489 frames differ, 1 of 4 pictures differ"; empty if all is equal.
   std::string counts() const;
   /// Frames of the film whose hashes are not those of the references.
@@ -44,13 +44,11 @@ class GoldenFindings {
                       const std::stop_token& stop);
   void compare_pictures(const ComparisonJob& job, const std::string& file, DiffPictures* pictures,
                         const std::stop_token& stop);
-  void show(Outcome outcome, std::string line);
 
   Counts frames_ = {};    // by outcome
   Counts pictures_ = {};  // by outcome; of everything else, such as unreadable files
   std::vector<std::int64_t> changed_frames_;
-  ShownFrames<std::string> shown_;
-  std::int64_t left_ = 0;
+  ShownLines shown_;
 };
 
 }  // namespace piblocks::cli

@@ -73,8 +73,10 @@ class ShownLines {
  public:
   void add(const FrameComparison& frame) {
     if (frame.outcome == Outcome::equal) return;
-    const std::string line = lines_.takes(frame.outcome) ? printable(row_text(frame)) : "";
-    left_ += lines_.add(frame.outcome, line) ? 1 : 0;
+    add(frame.outcome, lines_.takes(frame.outcome) ? printable(row_text(frame)) : "");
+  }
+  void add(Outcome outcome, std::string line) {
+    if (lines_.add(outcome, std::move(line))) ++left_;
   }
   template <typename Use>
   void for_each(const Use& use) const {
@@ -82,6 +84,13 @@ class ShownLines {
   }
   /// How many others there are; empty if there are none.
   std::string rest() const { return left_ > 0 ? fmt::format("… and {} more", left_) : ""; }
+  /// The lines, and how many others there are.
+  std::vector<std::string> all() const {
+    std::vector<std::string> lines;
+    for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
+    if (left_ > 0) lines.push_back(rest());
+    return lines;
+  }
 
  private:
   ShownFrames<std::string> lines_;

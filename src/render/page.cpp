@@ -153,11 +153,8 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
   check_stop(stop);
   page.finish();
   files.commit();
-  if (job.profile) {
-    const auto write = static_cast<std::size_t>(Step::write);
-    rendered.profile.steps[write] += clock.spent()[write];
-    rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
-  }
+  if (job.profile)
+    add(rendered.profile, {clock.spent(), processor_seconds(CLOCK_PROCESS_CPUTIME_ID)});
   return rendered;
 }
 

@@ -82,8 +82,7 @@ void check_page_size(const std::string& page, const std::filesystem::path& folde
 /// Renders the job's video as MP4, to the bytes that an output `*.mp4` would have, and the page
 /// that holds it.
 /// @throws UsageError if a part is asked for, or the background is transparent; as
-/// check_page_size()
-///         and render()
+///         check_page_size() and render()
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 

@@ -100,9 +100,7 @@ class Comparison {
   const std::vector<FrameComparison>& rows() const noexcept { return rows_; }
   std::vector<std::string> lines() const {
     if (pair_) return {line_of(*pair_)};
-    std::vector<std::string> lines;
-    lines_.for_each([&](Outcome, const std::string& line) { lines.push_back(line); });
-    if (const std::string rest = lines_.rest(); !rest.empty()) lines.push_back(rest);
+    std::vector<std::string> lines = lines_.all();
     lines.push_back(printable(summary_text(job_, result_)));
     return lines;
   }
