@@ -108,14 +108,14 @@ class FolderWalk {
 PictureList list_folder(const std::string& name, bool is_recursive) {
   FolderWalk walk(is_recursive);
   walk.enter(name, "");
-  PictureList list{.kind = PictureList::Kind::folder, .pictures = walk.take()};
+  PictureList list{.pictures = walk.take()};
   std::ranges::sort(list.pictures, comes_before, &ListedPicture::name);
   if (list.pictures.empty()) list.problem = fmt::format("there is no PNG file in '{}'", name);
   return list;
 }
 
 PictureList list_pattern(const std::string& name) {
-  PictureList list{.kind = PictureList::Kind::pattern, .pattern = FramePattern(name)};
+  PictureList list{.pattern = FramePattern(name)};
   const std::string& given = list.pattern->folder();
   const fs::path folder = given.empty() ? "." : given;
   std::error_code error;
@@ -196,15 +196,11 @@ PictureList list_pictures(const std::string& name, bool is_recursive) {
   if (status.type() == fs::file_type::not_found) {
     return {.problem = fmt::format("there is no '{}'", name)};
   }
-  return {.pictures = {{fs::path(name).filename(), name}}};
+  return {.is_one_file = true, .pictures = {{fs::path(name).filename(), name}}};
 }
 
 std::vector<PicturePair> paired(const PictureList& reference, const PictureList& actual) {
-  using Kind = PictureList::Kind;
-  if (reference.kind == Kind::file && actual.kind == Kind::file && reference.problem.empty() &&
-      actual.problem.empty()) {
-    return {{0, 0}};
-  }
+  if (reference.is_one_file && actual.is_one_file) return {{0, 0}};
   const auto pattern_for = [](const PictureList& list, const PictureList& other) {
     return list.pattern || !other.pattern ? nullptr : &*other.pattern;
   };

@@ -50,7 +50,4 @@ std::unique_ptr<Report> junit_report(const std::string& path);
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> json_report(const std::string& path);
 
-/// A comparison that is broken off leaves no report, rather than that of an earlier one.
-void remove_old_report(const std::string& path);
-
 }  // namespace piblocks

@@ -31,8 +31,6 @@ std::optional<Problem> conflict_of(const TomlTable& table, const KeysOfOneValue&
                  .means_nothing = true};
 }
 
-int parse_digits(const Values& values) { return parse_int(single(values), 1, kMaxDigits); }
-
 /// Of the lecture themes, unless a scene says otherwise.
 const Rational kLectureShutter(1, 2);
 
@@ -181,7 +179,8 @@ void SceneDraft::set(const std::string& origin, const std::string& key, const Va
 
 void SceneDraft::set_key(const std::string& origin, const std::string& key, const Values& values) {
   if (number_in(key, "body ") > 0) return bodies_.set(origin, key, values);
-  if (key == "digits") return set_mass_ratio(origin, parse_digits(values), std::nullopt);
+  if (key == "digits")
+    return set_mass_ratio(origin, parse_int(single(values), 1, kMaxDigits), std::nullopt);
   if (key == "mass-ratio") {
     return set_mass_ratio(origin, std::nullopt, parse_rational(single(values), kMaxMassBits));
   }
@@ -225,7 +224,11 @@ SceneDraft SceneDraft::next(const std::string& origin) const {
 
 Scene SceneDraft::scene(ProblemLines& problems) const {
   Scene scene = scene_;
-  set_shutter(scene.view);
+  // A blurred frame cannot be transparent.
+  const bool is_opaque = scene.view.background == Background::opaque;
+  if (is_lecture(scene.view.theme) && is_opaque && !origins_.contains("view.shutter")) {
+    scene.view.shutter = kLectureShutter;
+  }
   if (!bodies_.empty()) {
     bodies_.put_into(scene, problems);
     View seen = scene.view;
@@ -242,14 +245,6 @@ Scene SceneDraft::scene(ProblemLines& problems) const {
   if (width_by_mass_) red.size = width_by_mass(blue, red);
   change_wall(scene);
   return scene;
-}
-
-void SceneDraft::set_shutter(View& view) const {
-  // A blurred frame cannot be transparent.
-  const bool is_opaque = view.background == Background::opaque;
-  if (is_lecture(view.theme) && is_opaque && !origins_.contains("view.shutter")) {
-    view.shutter = kLectureShutter;
-  }
 }
 
 /// A wall of finite mass is a block, and one that moves the wall of a box.
@@ -276,11 +271,6 @@ std::string SceneDraft::origin_of(const std::string& key) const {
   }
   const std::string of_table = bodies_.origin_of(key);
   return of_table.empty() ? default_origin_ : of_table;
-}
-
-/// Whether other problems, which are reported, are the cause of this one.
-bool SceneDraft::is_repeated(const std::string& key) const {
-  return !bodies_.empty() && key.starts_with("view.") && !origins_.contains(key);
 }
 
 /// Keys of blue, red and the wall, where there are bodies instead; and a box without bodies.
@@ -315,7 +305,9 @@ Scene SceneDraft::make(ProblemLines& problems, bool of_film) const {
   check_bodies(found);
   for (Problem problem : problems_of(made)) {
     if (of_film && !is_film_key(problem.key)) continue;
-    if (!found.empty() && is_repeated(problem.key)) continue;
+    const bool follows_bodies =
+        !bodies_.empty() && problem.key.starts_with("view.") && !origins_.contains(problem.key);
+    if (follows_bodies && !found.empty()) continue;  // their problems are its cause
     problem.key = key_of(made, problem.key, !bodies_.empty());
     found.add(origin_of(problem.key), problem);
   }

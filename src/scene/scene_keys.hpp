@@ -57,9 +57,6 @@ const std::string& single(const Values& values);
 /// "true" or "false". @throws UsageError if it is neither.
 bool parse_bool(const Values& values);
 
-/// The values as one text for a message.
-std::string joined(const Values& values);
-
 /// A text of a list as the key's get() gives it; the text itself if it cannot be read.
 std::string normalized_item(std::string_view key, const std::string& text);
 
