@@ -17,7 +17,6 @@
 #include "core/input_file.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
-#include "render/captions.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
 #include "render/video_text.hpp"

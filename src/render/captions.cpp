@@ -1,5 +1,3 @@
-#include "render/captions.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

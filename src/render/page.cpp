@@ -14,7 +14,6 @@
 #include "core/file_set.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
-#include "render/captions.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"

@@ -13,12 +13,12 @@
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
-#include "render/captions.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/flash_meter.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
+#include "render/video_text.hpp"
 #include "scene/run_log.hpp"
 
 namespace piblocks {

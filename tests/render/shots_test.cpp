@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "render/captions.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
+#include "render/video_text.hpp"
 #include "support/contains.hpp"
 #include "support/script_of.hpp"
 #include "support/temporary_folder.hpp"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "draw/found_items.hpp"
-#include "render/captions.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"
