@@ -10,7 +10,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
-#include "golden/diff_pictures.hpp"
+#include "golden/difference.hpp"
 #include "golden/picture_list.hpp"
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"

@@ -14,7 +14,7 @@
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"
-#include "golden/diff_pictures.hpp"
+#include "golden/difference.hpp"
 #include "golden/report_source.hpp"
 #include "golden/shown_frames.hpp"
 
