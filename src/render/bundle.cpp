@@ -123,7 +123,7 @@ void check_bundle(const RenderJob& job) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
-void add(FileSet& files, const std::string& name, std::string_view text) {
+void add_text(FileSet& files, const std::string& name, std::string_view text) {
   files.add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
@@ -166,14 +166,14 @@ void write_poster(const RenderJob& job, const Film& film, FileSet& files,
 }
 
 void write_texts(const RenderJob& job, const Film& film, FileSet& files) {
-  add(files, kAltText, describe_film(film) + "\n");
-  add(files, kCaptions, captions(film));
-  add(files, kSubtitles, captions(film, CaptionFormat::subrip));
-  add(files, kLatex, latex_slides(film, job.output));
-  add(files, kReveal, reveal_slides(film, job.output));
+  add_text(files, kAltText, describe_film(film) + "\n");
+  add_text(files, kCaptions, captions(film));
+  add_text(files, kSubtitles, captions(film, CaptionFormat::subrip));
+  add_text(files, kLatex, latex_slides(film, job.output));
+  add_text(files, kReveal, reveal_slides(film, job.output));
   if (shots_of(job.script) == 0) return;
-  add(files, kChapters, chapters(film));
-  add(files, kImpress, impress_slides(film, job.output));
+  add_text(files, kChapters, chapters(film));
+  add_text(files, kImpress, impress_slides(film, job.output));
 }
 
 /// The bundle that an earlier run has left in the folder.
