@@ -6,7 +6,6 @@
 #include <array>
 #include <filesystem>
 #include <iterator>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <system_error>

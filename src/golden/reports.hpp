@@ -5,10 +5,8 @@
 
 #include <piblocks/compare.hpp>
 
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "golden/difference.hpp"
 

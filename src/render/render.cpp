@@ -9,7 +9,6 @@
 #include "core/ordered_pool.hpp"
 #include "core/processors.hpp"
 #include "core/stop.hpp"
-#include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"

@@ -5,7 +5,6 @@
 #include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "core/text.hpp"

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <optional>
 
-#include "scene/run_log.hpp"
 
 namespace piblocks {
 namespace {

@@ -5,7 +5,6 @@
 #include <functional>
 #include <string_view>
 
-#include "core/text.hpp"
 #include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
 

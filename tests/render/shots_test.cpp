@@ -1,8 +1,6 @@
 // The shots of a film: their frames, their sound, what is said in them, and slides for them.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <filesystem>
 #include <string>
 #include <vector>
 
