@@ -22,7 +22,6 @@
 #include "core/threads.hpp"
 #include "core/waiting_thread.hpp"
 #include "golden/frame_pair.hpp"
-#include "golden/hash_file.hpp"
 #include "golden/picture_list.hpp"
 #include "golden/rows.hpp"
 #include "media/libav/av_module.hpp"

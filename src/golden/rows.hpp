@@ -1,5 +1,6 @@
-// The rows of a comparison, counted in one place for pictures, videos and hashes.
-// In: what was found about a frame. Out: the row with its number, and the counts of all.
+// The rows of a comparison, counted in one place for pictures, videos and hashes; those of hashes.
+// In: what was found about a frame, or two files of hashes. Out: the row with its number, and the
+// counts of all.
 #pragma once
 
 #include <piblocks/compare.hpp>
@@ -42,5 +43,21 @@ class Rows {
   ComparisonResult result_;
   std::int64_t number_ = 0;
 };
+
+/// Whether it is a file of frame hashes, as FFmpeg's framehash and framemd5 muxers write them, by
+/// the file extension.
+bool is_framehash(const std::string& name);
+
+struct FramehashFile {
+  std::vector<std::string> header;  ///< its lines, without the one that names the software
+  std::vector<std::string> frames;  ///< a line each, without blanks
+};
+
+/// @throws IoError if it cannot be read, is not such a file, or has more than kMaxHashes lines.
+FramehashFile read_framehash(const std::string& path);
+
+/// Compares line by line. @throws UsageError if one is no file of hashes, by its name, or the job
+/// has a tolerance or masks.
+void compare_hashes(const ComparisonJob& job, Rows& rows);
 
 }  // namespace piblocks
