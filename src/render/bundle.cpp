@@ -176,39 +176,30 @@ void write_texts(const RenderJob& job, const Film& film, FileSet& files) {
   add_text(files, kImpress, impress_slides(film, job.output));
 }
 
-/// The bundle that an earlier run has left in the folder.
-class EarlierBundle {
- public:
-  explicit EarlierBundle(const fs::path& folder) {
-    constexpr std::size_t kMost_bytes = std::size_t{1} << 20;
-    const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kLatex, kMost_bytes);
-    const std::string text(bytes.begin(), bytes.end());
-    is_there_ = text.starts_with(kPreamble);
-    for (auto at = text.find_first_of(kPlain); is_there_ && at < text.size();) {
-      const std::size_t end = text.find_first_not_of(kPlain, at);
-      words_.insert(text.substr(at, end - at));
-      at = text.find_first_of(kPlain, end);
-    }
+/// The files of a bundle that an earlier run has left in the folder, among other words of its text
+/// for beamer, which names the files of all shots.
+std::set<std::string> earlier_files(const fs::path& folder) {
+  constexpr std::size_t kMost_bytes = std::size_t{1} << 20;
+  const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kLatex, kMost_bytes);
+  const std::string text(bytes.begin(), bytes.end());
+  if (!text.starts_with(kPreamble)) return {};
+  std::set<std::string> names(kFiles.begin(), kFiles.end());
+  for (auto at = text.find_first_of(kPlain); at < text.size();) {
+    const std::size_t end = text.find_first_not_of(kPlain, at);
+    names.insert(text.substr(at, end - at));
+    at = text.find_first_of(kPlain, end);
   }
-
-  /// Whether it has a file of this name, which is one of bundle_files().
-  bool has(const std::string& name) const {
-    return is_there_ && (std::ranges::find(kFiles, name) != kFiles.end() || words_.contains(name));
-  }
-
- private:
-  bool is_there_ = false;
-  std::set<std::string> words_;  // of the text for beamer, which names the files of all shots
-};
+  return names;
+}
 
 /// Checks all but the video, whose name the user has chosen.
 /// @throws UsageError if one of them would replace a file that is not from an earlier bundle.
-void check_names(const RenderJob& job, const EarlierBundle& earlier) {
+void check_names(const RenderJob& job, const std::set<std::string>& earlier) {
   std::error_code unknown;
   const std::vector<std::string> names = bundle_files(job);
   for (const std::string& name : std::span(names).subspan(1)) {
     const fs::path path = fs::path(job.bundle->folder) / name;
-    if (earlier.has(name) || !fs::exists(path, unknown)) continue;
+    if (earlier.contains(name) || !fs::exists(path, unknown)) continue;
     throw UsageError(fmt::format(
         "bundle: '{}' is there, but not from an earlier bundle; use another folder, or --overwrite "
         "to replace it",
@@ -217,10 +208,10 @@ void check_names(const RenderJob& job, const EarlierBundle& earlier) {
 }
 
 /// Files of shots that the earlier bundle of this video has, and the new one has not.
-void remove_rest(const RenderJob& job, const EarlierBundle& earlier, FileSet& files) {
+void remove_rest(const RenderJob& job, const std::set<std::string>& earlier, FileSet& files) {
   const std::vector<std::string> names = bundle_files(job);
   for (const std::string& name : files_of_shots(job.output, kMaxSegments)) {
-    if (earlier.has(name) && std::ranges::find(names, name) == names.end()) files.remove(name);
+    if (earlier.contains(name) && std::ranges::find(names, name) == names.end()) files.remove(name);
   }
 }
 
@@ -316,7 +307,7 @@ std::vector<std::string> bundle_files(const RenderJob& job) {
 Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   check_bundle(job);
-  const EarlierBundle earlier(job.bundle->folder);
+  const std::set<std::string> earlier = earlier_files(job.bundle->folder);
   if (!job.overwrite) check_names(job, earlier);
   const Film film = film_of(job, stop);
   FileSet files(job.bundle->folder, "bundle");

@@ -78,10 +78,6 @@ struct ShownCollisions {
   Integer size() const { return last > before ? Integer(last - before) : 0; }
 };
 
-ShownCollisions collisions_of(const Span& span, const Log& log) {
-  return {log.count_at(span.from), log.count_at(span.to)};
-}
-
 std::vector<Instant> spread_over_count(const Span& span, const ShownCollisions& shown,
                                        int pictures) {
   std::vector<Instant> instants = {span.from};
@@ -126,7 +122,7 @@ std::vector<Instant> spread_over(const Scene& scene, const Log& log, const Sprea
   check_count(pictures < 0 ? 0 : static_cast<std::size_t>(pictures));
   const Span span = span_of(scene, log);
   if (by == Spacing::time) return spread_over_time(span, pictures);
-  const ShownCollisions shown = collisions_of(span, log);
+  const ShownCollisions shown{log.count_at(span.from), log.count_at(span.to)};
   if (by == Spacing::count) check_spread_over_count(log, shown, pictures);
   return by.value_or(usual_spacing(log, span, shown, pictures)) == Spacing::count
              ? spread_over_count(span, shown, pictures)
