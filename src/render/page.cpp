@@ -113,11 +113,10 @@ void write_page(const Film& film, const fs::path& video, OutputFile& page,
 void check_page_size(const std::string& page, const fs::path& folder, const Progress& progress) {
   std::uintmax_t size = 0;
   std::error_code gone;  // a file that takes its name has gone for a moment
-  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end;
-       entry.increment(gone)) {
+  for (const fs::path& file : entries_of(folder, gone)) {
     std::error_code unknown;
-    const bool is_file = entry->is_regular_file(unknown);
-    const std::uintmax_t bytes = is_file ? entry->file_size(unknown) : 0;
+    const bool is_file = fs::is_regular_file(file, unknown);
+    const std::uintmax_t bytes = is_file ? fs::file_size(file, unknown) : 0;
     if (!unknown) size += bytes;
   }
   if (size <= kMostVideo_bytes) return;

@@ -44,12 +44,13 @@ std::optional<Rational> parse_end(const std::string& text, const char* none) {
   return parse_rational(text);
 }
 
-struct BodyKey {
+template <typename Read>
+struct TableKey {
   const char* name;
-  void (*set)(ReadBody& body, const Values& values);
+  void (*set)(Read& read, const Values& values);
 };
 
-constexpr auto kBodyKeys = std::to_array<BodyKey>({
+constexpr auto kBodyKeys = std::to_array<TableKey<ReadBody>>({
     {"mass", [](ReadBody& body,
                 const Values& values) { body.body.mass = parse_end(single(values), "inf"); }},
     {"position",
@@ -92,12 +93,7 @@ BoxSide parse_box_side(const Values& values) {
   return side;
 }
 
-struct WallKey {
-  const char* name;
-  void (*set)(Wall& wall, const Values& values);
-};
-
-constexpr auto kWallKeys = std::to_array<WallKey>({
+constexpr auto kWallKeys = std::to_array<TableKey<Wall>>({
     {"point", [](Wall& wall, const Values& values) { wall.point = parse_pair(values); }},
     {"normal", [](Wall& wall, const Values& values) { wall.normal = parse_pair(values); }},
     {"velocity", [](Wall& wall, const Values& values) { wall.velocity = parse_pair(values); }},
@@ -147,7 +143,7 @@ ReadBody read_properties(
       add(entry.line, entry.key, {.reason = ": " + reason, .means_nothing = true});
     };
     const auto* const key =
-        std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
+        std::ranges::find(kBodyKeys, std::string_view(entry.key), &TableKey<ReadBody>::name);
     if (key == kBodyKeys.end()) {
       add_unread("unknown key" + did_you_mean(entry.key, names_of(kBodyKeys)));
     } else if (!entry.problem.empty()) {
@@ -306,7 +302,7 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
     bool is_read = true;
     for (const TomlEntry& entry : table.entries) {
       const auto* const key =
-          std::ranges::find(kWallKeys, std::string_view(entry.key), &WallKey::name);
+          std::ranges::find(kWallKeys, std::string_view(entry.key), &TableKey<Wall>::name);
       if (key == kWallKeys.end()) {
         problems.add(
             path, entry.line,
