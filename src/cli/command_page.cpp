@@ -22,7 +22,7 @@
 #include "core/stop.hpp"
 #include "core/text.hpp"
 #include "render/film.hpp"
-#include "scene/scene_toml.hpp"
+#include "scene/scene_keys.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;

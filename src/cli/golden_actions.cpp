@@ -15,7 +15,7 @@
 #include "core/processors.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
-#include "golden/frame_side.hpp"
+#include "golden/frame_pair.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;

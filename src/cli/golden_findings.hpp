@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "golden/diff_pictures.hpp"
+#include "golden/difference.hpp"
 #include "golden/shown_frames.hpp"
 
 namespace piblocks::cli {

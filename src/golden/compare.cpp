@@ -70,12 +70,6 @@ bool has_equal_rows(const PackedRows& reference, const PackedRows& actual, int y
 template <typename Word>
 using Level = std::conditional_t<sizeof(Word) == 4, std::uint8_t, std::uint16_t>;
 
-template <typename Word>
-Word sample_of(Word word, std::size_t place) {
-  constexpr std::size_t kBits = sizeof(Word) * 2;
-  return (word >> (place * kBits)) & ((Word{1} << kBits) - 1);
-}
-
 /// The largest delta of the samples of each pixel. Every loop becomes vector instructions for
 /// single samples, which are four times as fast as those for words.
 template <typename Word>

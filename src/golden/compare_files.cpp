@@ -4,8 +4,13 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -17,9 +22,6 @@
 #include "core/threads.hpp"
 #include "core/waiting_thread.hpp"
 #include "golden/frame_pair.hpp"
-#include "golden/frame_shift.hpp"
-#include "golden/frame_side.hpp"
-#include "golden/hash_file.hpp"
 #include "golden/picture_list.hpp"
 #include "golden/rows.hpp"
 #include "media/libav/av_module.hpp"
@@ -29,44 +31,174 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// Takes compared pairs in their order.
-class PairTaker {
+/// One side of a comparison: its frames, one step after the other.
+class FrameSide {
  public:
-  PairTaker(const ComparisonJob& job, Rows& rows)
-      : job_(job), rows_(rows), hides_(job.masks.size()) {}
+  virtual ~FrameSide() = default;
+  /// The step at which the next frame stands; nothing after the last. A video may turn out to have
+  /// none there.
+  virtual std::optional<std::int64_t> next_step() const = 0;
+  /// Goes to that step and reads its frame, which stays until the next call.
+  /// @throws IoError, MediaError once a stop has been requested: then the frame has no problem.
+  virtual Fetched fetch() = 0;
+  /// Whether frames after one that cannot be read can be fetched.
+  virtual bool goes_on_after_failure() const = 0;
+};
 
-  void take(ComparedPair pair) {
-    is_compared_ |= pair.is_compared;
-    for (const std::size_t mask : pair.mask_indices) hides_[mask] = true;
-    rows_.take(std::move(pair.row), pair.has_reference, pair.has_actual);
+/// PNG files: those of a pattern by their numbers, counted from the first; others in their order.
+class PictureSide final : public FrameSide {
+ public:
+  explicit PictureSide(std::vector<ListedPicture> pictures) : pictures_(std::move(pictures)) {}
+
+  std::optional<std::int64_t> next_step() const override {
+    if (fetched_ == pictures_.size()) return std::nullopt;
+    const std::optional<std::int64_t>& number = pictures_[fetched_].number;
+    return number ? *number - pictures_.front().number.value_or(0) : std::int64_t(fetched_);
   }
-  /// @throws UsageError if a mask lies outside of every picture.
-  void finish() const {
-    if (!is_compared_) return;
-    for (std::size_t i = 0; i < hides_.size(); ++i) {
-      const Mask& mask = job_.masks[i];
-      if (hides_[i] || !mask.must_hide) continue;
-      throw UsageError(
-          mask.name_pattern.empty()
-              ? fmt::format("compare: the mask {} lies outside of every picture that is compared",
-                            mask.text)
-              : fmt::format("compare: the mask {} hides nothing: no picture that is compared has "
-                            "this name, or the mask lies outside of it",
-                            mask.text));
-    }
-  }
+  Fetched fetch() override { return fetch_picture(pictures_[fetched_++]); }
+  bool goes_on_after_failure() const override { return true; }
 
  private:
-  const ComparisonJob& job_;
-  Rows& rows_;
-  std::vector<bool> hides_;  // of each mask: a part of some picture
-  bool is_compared_ = false;
+  std::vector<ListedPicture> pictures_;
+  std::size_t fetched_ = 0;
 };
+
+/// Any file that libavformat reads, opened when the first frame is fetched. It has a frame at every
+/// step.
+class VideoSide final : public FrameSide {
+ public:
+  VideoSide(std::string path, std::stop_token stop)
+      : path_(std::move(path)), stop_(std::move(stop)) {}
+
+  std::optional<std::int64_t> next_step() const override {
+    return is_over_ ? std::nullopt : std::optional(fetched_);
+  }
+  Fetched fetch() override {
+    Fetched fetched{.is_there = true};
+    try {
+      fetched.is_there = read();
+    } catch (const IoError& error) {
+      if (stop_.stop_requested()) throw;
+      fetched.problem = error.what();
+    } catch (const MediaError& error) {
+      if (stop_.stop_requested()) throw;
+      fetched.problem = error.what();
+    }
+    const std::int64_t number = is_over_ ? fetched_ : fetched_ - 1;
+    fetched.name = reader_ ? fmt::format("frame {}", number) : fs::path(path_).filename().string();
+    fetched.key = reader_ ? frame_key(number) : fetched.name;
+    fetched.frame = reader_;
+    return fetched;
+  }
+  bool goes_on_after_failure() const override { return false; }
+
+ private:
+  bool read() {
+    is_over_ = true;  // if this throws
+    if (!reader_) reader_ = read_video(path_, stop_);
+    is_over_ = !reader_->next();
+    if (!is_over_) ++fetched_;
+    return !is_over_;
+  }
+
+  std::string path_;
+  std::stop_token stop_;
+  std::shared_ptr<FrameReader> reader_;
+  bool is_over_ = false;
+  std::int64_t fetched_ = 0;
+};
+
+constexpr int kColumns = 640;            // of pixels that are read, at least
+constexpr std::size_t kMostFrames = 64;  // that are looked at
+constexpr int kMostShift = 24;           // so that most of them are compared
+constexpr double kAlike = 2;  // square levels: more than a lossy encoder leaves of equal frames
+constexpr double kTimesCloser = 4;  // than by any other shift, or the speed is another one
+
+constexpr int kAcross = 32;
+constexpr int kDown = 18;
+/// The mean red, green and blue of the parts of a picture.
+using Thumbnail = std::array<float, std::size_t{3} * kAcross * kDown>;
+
+Thumbnail thumbnail_of(const Image& image) {
+  Thumbnail sums = {};
+  std::array<float, std::size_t{kAcross}* kDown> counts = {};
+  const int step = std::max(1, image.width_px / kColumns);
+  for (int y = 0; y < image.height_px; y += step) {
+    const std::uint32_t* const row = image.words.data() + std::ptrdiff_t{y} * image.width_px;
+    const int first = y * kDown / image.height_px * kAcross;
+    for (int x = 0; x < image.width_px; x += step) {
+      const auto part = static_cast<unsigned>(first + x * kAcross / image.width_px);
+      for (unsigned c = 0; c < 3; ++c) {
+        sums.at(3 * part + c) += float((row[x] >> (8 * c)) & 0xff);
+      }
+      ++counts.at(part);
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= std::max(1.0F, counts[i / 3]);
+  return sums;
+}
+
+/// Whether one side shows what the other one shows, some frames earlier or later. Looks at the
+/// frames from the first that is different, since those before are equal.
+class FrameShift {
+ public:
+  void add(std::int64_t number, const FrameComparison& frame) {
+    if (reference_.empty() && actual_.empty()) {
+      if (frame.outcome != Outcome::different) return;
+      first_ = number;
+    }
+    const auto take = [](const std::function<Image()>& picture, std::vector<Thumbnail>& to) {
+      if (!picture || to.size() == kMostFrames) return;
+      if (const Image image = picture(); !image.words.empty()) to.push_back(thumbnail_of(image));
+    };
+    take(frame.reference, reference_);
+    take(frame.actual, actual_);
+  }
+  /// "from frame 12 on, frames look like those of the reference 2 frames before them"; empty if
+  /// they do not.
+  std::string text() const;
+
+ private:
+  /// The mean square difference of the frames that both sides have if the actual ones come later.
+  double distance(int frames_later) const {
+    const auto a = reference_.begin() + std::max(0, -frames_later);
+    const auto b = actual_.begin() + std::max(0, frames_later);
+    const auto frames = std::min(reference_.end() - a, actual_.end() - b);
+    double sum = 0;
+    for (std::ptrdiff_t i = 0; i < frames; ++i) {
+      sum += std::transform_reduce(a[i].begin(), a[i].end(), b[i].begin(), 0.0, std::plus<>(),
+                                   [](float x, float y) { return double((x - y) * (x - y)); });
+    }
+    return sum / static_cast<double>(frames) / static_cast<double>(Thumbnail().size());
+  }
+
+  std::int64_t first_ = 0;
+  std::vector<Thumbnail> reference_;
+  std::vector<Thumbnail> actual_;
+};
+
+std::string FrameShift::text() const {
+  const int frames = static_cast<int>(std::min(reference_.size(), actual_.size()));
+  const int most = std::min(kMostShift, frames / 2);
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double second = least;
+  for (int shift = -most; shift <= most; ++shift) {
+    const double found = distance(shift);
+    second = std::min(second, std::max(found, least));
+    if (found >= least) continue;
+    best = shift;
+    least = found;
+  }
+  if (best == 0 || least > kAlike || least * kTimesCloser > second || second == 0) return {};
+  return fmt::format("from frame {} on, frames look like those of the reference {} {} them", first_,
+                     counted(std::abs(best), "frame"), best > 0 ? "before" : "after");
+}
 
 /// Compares frame by frame. Both sides are read at once, since reading is nearly all of the work.
 /// @returns how the frames of one side are shifted, if they are
 std::string compare_sides(FrameSide& reference, FrameSide& actual, const ComparisonJob& job,
-                          PairTaker& taker, const std::stop_token& stop) {
+                          Rows& rows, const std::stop_token& stop) {
   FrameShift shift;
   while (true) {
     check_stop(stop);
@@ -88,7 +220,7 @@ std::string compare_sides(FrameSide& reference, FrameSide& actual, const Compari
     if (expected.is_there || found.is_there) {
       ComparedPair pair = compare_frames(expected, found, job);
       shift.add(first.second ? *a : *b, pair.row);
-      taker.take(std::move(pair));
+      rows.take(std::move(pair));
     }
     if (ends) return shift.text();
   }
@@ -109,30 +241,18 @@ bool is_video(const std::string& name) {
   }
 }
 
-/// The pictures of a list, at the steps of a video beside it.
-std::vector<PlacedPicture> placed_in_order(PictureList list) {
-  std::vector<PlacedPicture> placed;
-  const std::int64_t first = list.pictures.empty() ? 0 : list.pictures[0].number.value_or(0);
-  for (ListedPicture& picture : list.pictures) {
-    const auto place = static_cast<std::int64_t>(placed.size());
-    const std::int64_t step = picture.number ? *picture.number - first : place;
-    placed.push_back({step, std::move(picture)});
-  }
-  return placed;
-}
-
 std::unique_ptr<FrameSide> open_side(const std::string& name, const ComparisonJob& job, Rows& rows,
                                      const std::stop_token& stop) {
-  if (is_video(name)) return video_side(name, stop);
+  if (is_video(name)) return std::make_unique<VideoSide>(name, stop);
   PictureList list = list_pictures(name, job.is_recursive);
   rows.set_problem(list.problem);
-  return picture_side(placed_in_order(std::move(list)));
+  return std::make_unique<PictureSide>(std::move(list.pictures));
 }
 
 /// A pair for each processor; a lone pair has two.
 void compare_pairs(const PictureList& reference, const PictureList& actual,
-                   const std::vector<PicturePair>& pairs, const ComparisonJob& job,
-                   PairTaker& taker, const std::stop_token& stop) {
+                   const std::vector<PicturePair>& pairs, const ComparisonJob& job, Rows& rows,
+                   const std::stop_token& stop) {
   const auto compare_pair = [&](std::int64_t index, const std::stop_token&) {
     const PicturePair& pair = pairs[std::size_t(index)];
     if (pair.reference && pair.actual) {
@@ -144,18 +264,17 @@ void compare_pairs(const PictureList& reference, const PictureList& actual,
     };
     return compare_frames(fetched(reference, pair.reference), fetched(actual, pair.actual), job);
   };
-  if (pairs.size() == 1) return taker.take(compare_pair(0, stop));
+  if (pairs.size() == 1) return rows.take(compare_pair(0, stop));
   using Pool = OrderedPool<ComparedPair>;
   Pool pool(
       std::ssize(pairs), processor_count(), [&] { return Pool::Task(compare_pair); },
       [](const ComparedPair& pair) { return pair.held_bytes; });
-  while (auto pair = pool.take(stop)) taker.take(*std::move(pair));
+  while (auto pair = pool.take(stop)) rows.take(*std::move(pair));
   check_stop(stop);
 }
 
 /// Lines up two lists of pictures by name or number, and compares them.
-void compare_lists(const ComparisonJob& job, Rows& rows, PairTaker& taker,
-                   const std::stop_token& stop) {
+void compare_lists(const ComparisonJob& job, Rows& rows, const std::stop_token& stop) {
   const PictureList reference = list_pictures(job.reference, job.is_recursive);
   const PictureList actual = list_pictures(job.actual, job.is_recursive);
   const std::vector<PicturePair> pairs = paired(reference, actual);
@@ -174,41 +293,31 @@ void compare_lists(const ComparisonJob& job, Rows& rows, PairTaker& taker,
                     "FOLDER/%06d.png pair pictures by number",
                     job.actual, job.reference));
   }
-  compare_pairs(reference, actual, pairs, job, taker, stop);
-}
-
-void compare_frames_of(const ComparisonJob& job, Rows& rows, const std::stop_token& stop) {
-  PairTaker taker(job, rows);
-  if (!is_video(job.reference) && !is_video(job.actual)) {
-    compare_lists(job, rows, taker, stop);
-  } else {
-    const auto reference = open_side(job.reference, job, rows, stop);
-    const auto actual = open_side(job.actual, job, rows, stop);
-    rows.set_note(compare_sides(*reference, *actual, job, taker, stop));
-  }
-  taker.finish();
+  compare_pairs(reference, actual, pairs, job, rows, stop);
 }
 
 }  // namespace
 
 ComparisonResult compare_pair(const Fetched& reference, const Fetched& actual,
                               const ComparisonJob& job, const OnFrame& on_frame) {
-  Rows rows(on_frame);
-  PairTaker taker(job, rows);
-  taker.take(compare_frames(reference, actual, job));
-  taker.finish();
-  return rows.finish(job);
+  Rows rows(job, on_frame);
+  rows.take(compare_frames(reference, actual, job));
+  return rows.finish();
 }
 
 ComparisonResult compare_files(const ComparisonJob& job, const OnFrame& on_frame,
                                const std::stop_token& stop) {
-  Rows rows(on_frame);
+  Rows rows(job, on_frame);
   if (is_framehash(job.reference) || is_framehash(job.actual)) {
     compare_hashes(job, rows);
+  } else if (is_video(job.reference) || is_video(job.actual)) {
+    const auto reference = open_side(job.reference, job, rows, stop);
+    const auto actual = open_side(job.actual, job, rows, stop);
+    rows.set_note(compare_sides(*reference, *actual, job, rows, stop));
   } else {
-    compare_frames_of(job, rows, stop);
+    compare_lists(job, rows, stop);
   }
-  return rows.finish(job);
+  return rows.finish();
 }
 
 }  // namespace piblocks

@@ -14,7 +14,6 @@
 #include "core/input_file.hpp"
 #include "core/threads.hpp"
 #include "golden/packed_rows.hpp"
-#include "golden/rows.hpp"
 #include "media/png/png_reader.hpp"
 
 namespace piblocks {
@@ -263,6 +262,12 @@ void compare_samples(const Fetched& reference, const Fetched& actual, const Comp
 }
 
 }  // namespace
+
+void add_unreadable(FrameComparison& row, const std::string& problem) {
+  row.outcome = Outcome::unreadable;
+  if (problem == row.problem) return;
+  row.problem += (row.problem.empty() ? "" : "; ") + problem;
+}
 
 Fetched fetch_picture(const ListedPicture& picture) { return decoded(picture, file_of(picture)); }
 

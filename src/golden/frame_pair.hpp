@@ -2,11 +2,12 @@
 // In: PNG files or frames of videos. Out: what is found about them, with the pictures for reports.
 #pragma once
 
+#include <fmt/format.h>
 #include <piblocks/compare.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct Fetched {
 
 Fetched fetch_picture(const ListedPicture& picture);
 
+/// The key of a frame of a video.
+inline std::string frame_key(std::int64_t number) { return fmt::format("frame-{:06}", number); }
+
 struct PictureSize {
   int width_px = 0;
   int height_px = 0;
@@ -46,6 +50,9 @@ struct ComparedPair {
   std::vector<std::size_t> mask_indices = {};
   std::size_t held_bytes = 0;  ///< by the functions, about
 };
+
+/// Adds a reason why a frame cannot be read. The same reason on both sides is said once.
+void add_unreadable(FrameComparison& row, const std::string& problem);
 
 /// @throws UsageError as compare()
 ComparedPair compare_frames(const Fetched& reference, const Fetched& actual,

@@ -6,9 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace piblocks {
+
+/// A sample of a word of four, alpha in the highest bits. @param place  0 is the lowest
+template <typename Word>
+Word sample_of(Word word, std::size_t place) {
+  constexpr std::size_t kBits = sizeof(Word) * 2;
+  return (word >> (place * kBits)) & ((Word{1} << kBits) - 1);
+}
 
 /// Brightness and the two differences of colours of the NTSC standard.
 struct Yiq {
@@ -64,10 +70,8 @@ class Perceptual {
 
   static std::array<double, 4> levels_at(const Rows& rows, int x, int y) {
     const auto word = rows.row(y)[x];
-    constexpr std::size_t kBits = sizeof word * 2;
     const auto level = [&](std::size_t place) {
-      const auto stored = (word >> (place * kBits)) & ((decltype(word){1} << kBits) - 1);
-      return 255 * static_cast<double>(stored) / rows.max_level;
+      return 255 * static_cast<double>(sample_of(word, place)) / rows.max_level;
     };
     return {level(2), level(1), level(0), level(3)};
   }

@@ -108,14 +108,14 @@ class FolderWalk {
 PictureList list_folder(const std::string& name, bool is_recursive) {
   FolderWalk walk(is_recursive);
   walk.enter(name, "");
-  PictureList list{.kind = PictureList::Kind::folder, .pictures = walk.take()};
+  PictureList list{.pictures = walk.take()};
   std::ranges::sort(list.pictures, comes_before, &ListedPicture::name);
   if (list.pictures.empty()) list.problem = fmt::format("there is no PNG file in '{}'", name);
   return list;
 }
 
 PictureList list_pattern(const std::string& name) {
-  PictureList list{.kind = PictureList::Kind::pattern, .pattern = FramePattern(name)};
+  PictureList list{.pattern = FramePattern(name)};
   const std::string& given = list.pattern->folder();
   const fs::path folder = given.empty() ? "." : given;
   std::error_code error;
@@ -166,23 +166,19 @@ std::vector<Place> places_of(const PictureList& list, const FramePattern* patter
 }
 
 /// The folders of a list that cannot be read.
-class ClosedFolders {
- public:
-  explicit ClosedFolders(const PictureList& list) {
-    for (const ListedPicture& picture : list.pictures) {
-      if (!picture.problem.empty()) names_.push_back(picture.name);
-    }
+std::vector<std::string> closed_folders(const PictureList& list) {
+  std::vector<std::string> names;
+  for (const ListedPicture& picture : list.pictures) {
+    if (!picture.problem.empty()) names.push_back(picture.name);
   }
+  return names;
+}
 
-  bool may_hold(const ListedPicture& picture) const {
-    return std::ranges::any_of(names_, [&](const std::string& name) {
-      return name.empty() || picture.name.starts_with(name + '/');
-    });
-  }
-
- private:
-  std::vector<std::string> names_;
-};
+bool may_hold(const std::vector<std::string>& folders, const ListedPicture& picture) {
+  return std::ranges::any_of(folders, [&](const std::string& name) {
+    return name.empty() || picture.name.starts_with(name + '/');
+  });
+}
 
 }  // namespace
 
@@ -200,30 +196,26 @@ PictureList list_pictures(const std::string& name, bool is_recursive) {
   if (status.type() == fs::file_type::not_found) {
     return {.problem = fmt::format("there is no '{}'", name)};
   }
-  return {.pictures = {{fs::path(name).filename(), name}}};
+  return {.is_one_file = true, .pictures = {{fs::path(name).filename(), name}}};
 }
 
 std::vector<PicturePair> paired(const PictureList& reference, const PictureList& actual) {
-  using Kind = PictureList::Kind;
-  if (reference.kind == Kind::file && actual.kind == Kind::file && reference.problem.empty() &&
-      actual.problem.empty()) {
-    return {{0, 0}};
-  }
+  if (reference.is_one_file && actual.is_one_file) return {{0, 0}};
   const auto pattern_for = [](const PictureList& list, const PictureList& other) {
     return list.pattern || !other.pattern ? nullptr : &*other.pattern;
   };
   const auto expected = places_of(reference, pattern_for(reference, actual));
   const auto found = places_of(actual, pattern_for(actual, reference));
-  const ClosedFolders closed_reference(reference);
-  const ClosedFolders closed_actual(actual);
+  const std::vector<std::string> closed_reference = closed_folders(reference);
+  const std::vector<std::string> closed_actual = closed_folders(actual);
   std::vector<PicturePair> pairs;
   auto a = expected.begin();
   auto b = found.begin();
   while (a != expected.end() || b != found.end()) {
     const bool has_a = a != expected.end() && (b == found.end() || !(*b < *a));
     const bool has_b = b != found.end() && (a == expected.end() || !(*a < *b));
-    const bool is_unknown = (!has_b && closed_actual.may_hold(reference.pictures[a->index])) ||
-                            (!has_a && closed_reference.may_hold(actual.pictures[b->index]));
+    const bool is_unknown = (!has_b && may_hold(closed_actual, reference.pictures[a->index])) ||
+                            (!has_a && may_hold(closed_reference, actual.pictures[b->index]));
     PicturePair pair;
     if (has_a) pair.reference = (a++)->index;
     if (has_b) pair.actual = (b++)->index;

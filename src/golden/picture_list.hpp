@@ -22,9 +22,7 @@ struct ListedPicture {
 };
 
 struct PictureList {
-  enum class Kind { file, folder, pattern };
-
-  Kind kind = Kind::file;
+  bool is_one_file = false;                  ///< not a folder or a pattern, and there
   std::vector<ListedPicture> pictures = {};  ///< by the numbers in their names
   std::string problem = {};                  ///< why there is none
   std::optional<FramePattern> pattern = {};

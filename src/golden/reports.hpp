@@ -5,10 +5,8 @@
 
 #include <piblocks/compare.hpp>
 
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "golden/difference.hpp"
 
@@ -49,8 +47,5 @@ std::unique_ptr<Report> junit_report(const std::string& path);
 /// An object of JSON with the counts and all rows; rectangles are [x, y, width, height].
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> json_report(const std::string& path);
-
-/// A comparison that is broken off leaves no report, rather than that of an earlier one.
-void remove_old_report(const std::string& path);
 
 }  // namespace piblocks

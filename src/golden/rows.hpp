@@ -1,5 +1,6 @@
-// The rows of a comparison, counted in one place for pictures, videos and hashes.
-// In: what was found about a frame. Out: the row with its number, and the counts of all.
+// The rows of a comparison, counted in one place for pictures, videos and hashes; those of hashes.
+// In: what was found about a frame, or two files of hashes. Out: the row with its number, and the
+// counts of all.
 #pragma once
 
 #include <piblocks/compare.hpp>
@@ -7,6 +8,9 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "golden/frame_pair.hpp"
 
 namespace piblocks {
 
@@ -14,11 +18,11 @@ using OnFrame = std::function<void(const FrameComparison&)>;
 
 class Rows {
  public:
-  explicit Rows(OnFrame on_frame) : on_frame_(std::move(on_frame)) {}
+  Rows(const ComparisonJob& job, OnFrame on_frame)
+      : job_(job), on_frame_(std::move(on_frame)), hides_(job.masks.size()) {}
 
   /// Numbers the row, counts it, and hands it on.
-  /// @param has_reference, has_actual  on which sides it has a frame
-  void take(FrameComparison row, bool has_reference, bool has_actual);
+  void take(ComparedPair pair);
 
   /// Notes why a side has no frame, or why no picture has a partner. The first reason stays.
   void set_problem(const std::string& problem) {
@@ -26,15 +30,34 @@ class Rows {
   }
   void set_note(const std::string& note) { result_.note = note; }
   /// The result. A comparison in which a side has no frame is never equal.
-  ComparisonResult finish(const ComparisonJob& job);
+  /// @throws UsageError if a mask lies outside of every picture.
+  ComparisonResult finish();
 
  private:
+  void check_masks() const;
+
+  const ComparisonJob& job_;
   OnFrame on_frame_;
+  std::vector<bool> hides_;  // of each mask: a part of some picture
+  bool is_compared_ = false;
   ComparisonResult result_;
   std::int64_t number_ = 0;
 };
 
-/// Adds a reason why a frame cannot be read. The same reason on both sides is said once.
-void add_unreadable(FrameComparison& row, const std::string& problem);
+/// Whether it is a file of frame hashes, as FFmpeg's framehash and framemd5 muxers write them, by
+/// the file extension.
+bool is_framehash(const std::string& name);
+
+struct FramehashFile {
+  std::vector<std::string> header;  ///< its lines, without the one that names the software
+  std::vector<std::string> frames;  ///< a line each, without blanks
+};
+
+/// @throws IoError if it cannot be read, is not such a file, or has more than kMaxHashes lines.
+FramehashFile read_framehash(const std::string& path);
+
+/// Compares line by line. @throws UsageError if one is no file of hashes, by its name, or the job
+/// has a tolerance or masks.
+void compare_hashes(const ComparisonJob& job, Rows& rows);
 
 }  // namespace piblocks

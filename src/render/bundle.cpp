@@ -17,9 +17,7 @@
 #include "core/input_file.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
-#include "render/captions.hpp"
 #include "render/renderings.hpp"
-#include "render/slides.hpp"
 #include "render/step_clock.hpp"
 #include "render/video_text.hpp"
 
@@ -37,6 +35,63 @@ constexpr const char* kReveal = "reveal.html";
 constexpr std::array kFiles{kPoster, kAltText, kCaptions, kSubtitles, kLatex, kReveal};
 constexpr const char* kChapters = "chapters.vtt";
 constexpr const char* kImpress = "impress.fodp";
+
+/// How the text for beamer begins.
+constexpr std::string_view kPreamble =
+    R"(% In the preamble: \usepackage{graphicx} \usepackage{multimedia}
+% A viewer that plays no videos shows the )";
+
+/// As large as fits below a title, at any shape of slide and film. Without a width of its own,
+/// \movie is as large as the poster.
+constexpr std::string_view kMovie = R"(\centering
+\movie[{options}]{{%
+  \includegraphics[width=\textwidth,height={height}\textheight,keepaspectratio]{{{poster}}}}}{{{name}}}
+)";
+
+/// reveal.js sizes the video by r-stretch, and plays it when the slide is shown. Controls would
+/// stay over the last picture of a shot.
+constexpr std::string_view kSection = R"(<section{transition}>
+  <video class="r-stretch" data-autoplay {controls}{loop}playsinline preload="metadata"{poster}
+         aria-label="{alt}">
+    <source src="{name}" type="video/mp4">
+    <track kind="captions" srclang="en" label="English" src="{captions}">
+  </video>
+</section>
+)";
+
+/// Slides of the film's shape, in centimetres. Without office:styles, LibreOffice would give all
+/// slides its own size.
+constexpr std::string_view kImpressHead = R"(<?xml version="1.0" encoding="UTF-8"?>
+<office:document xmlns:office="urn:oasis:names:tc:opendocument:xmlns:office:1.0"
+  xmlns:style="urn:oasis:names:tc:opendocument:xmlns:style:1.0"
+  xmlns:draw="urn:oasis:names:tc:opendocument:xmlns:drawing:1.0"
+  xmlns:svg="urn:oasis:names:tc:opendocument:xmlns:svg-compatible:1.0"
+  xmlns:fo="urn:oasis:names:tc:opendocument:xmlns:xsl-fo-compatible:1.0"
+  xmlns:xlink="http://www.w3.org/1999/xlink"
+  office:version="1.3" office:mimetype="application/vnd.oasis.opendocument.presentation">
+<office:styles/>
+<office:automatic-styles><style:page-layout style:name="slide">
+<style:page-layout-properties fo:page-width="{width}" fo:page-height="{height}" fo:margin="0cm"/>
+</style:page-layout></office:automatic-styles>
+<office:master-styles><style:master-page style:name="shots" style:page-layout-name="slide"/></office:master-styles>
+<office:body><office:presentation>
+)";
+
+/// The last picture lies behind the video, for programs that cannot play it.
+constexpr std::string_view kImpressSlide =
+    R"(<draw:page draw:name="{number}" draw:master-page-name="shots">
+<draw:frame svg:width="{width}" svg:height="{height}"><draw:image xlink:href="{picture}"/></draw:frame>
+<draw:frame svg:width="{width}" svg:height="{height}">
+<draw:plugin xlink:href="{name}" xlink:type="simple" draw:mime-type="application/vnd.sun.star.media"/>
+<svg:desc>{alt}</svg:desc></draw:frame>
+</draw:page>
+)";
+
+/// The name of a shot's file: "why-pi-01.mp4" for "why-pi.mp4".
+/// @param number  from 1 on
+std::string shot_name(const std::string& video, std::size_t number, std::string_view ending) {
+  return fmt::format("{}-{:02}{}", video.substr(0, video.rfind('.')), number, ending);
+}
 
 constexpr std::string_view kPlain =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._";
@@ -68,7 +123,7 @@ void check_bundle(const RenderJob& job) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
-void add(FileSet& files, const std::string& name, std::string_view text) {
+void add_text(FileSet& files, const std::string& name, std::string_view text) {
   files.add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
@@ -111,49 +166,40 @@ void write_poster(const RenderJob& job, const Film& film, FileSet& files,
 }
 
 void write_texts(const RenderJob& job, const Film& film, FileSet& files) {
-  add(files, kAltText, describe_film(film) + "\n");
-  add(files, kCaptions, captions(film));
-  add(files, kSubtitles, captions(film, CaptionFormat::subrip));
-  add(files, kLatex, latex_slides(film, job.output));
-  add(files, kReveal, reveal_slides(film, job.output));
+  add_text(files, kAltText, describe_film(film) + "\n");
+  add_text(files, kCaptions, captions(film));
+  add_text(files, kSubtitles, captions(film, CaptionFormat::subrip));
+  add_text(files, kLatex, latex_slides(film, job.output));
+  add_text(files, kReveal, reveal_slides(film, job.output));
   if (shots_of(job.script) == 0) return;
-  add(files, kChapters, chapters(film));
-  add(files, kImpress, impress_slides(film, job.output));
+  add_text(files, kChapters, chapters(film));
+  add_text(files, kImpress, impress_slides(film, job.output));
 }
 
-/// The bundle that an earlier run has left in the folder.
-class EarlierBundle {
- public:
-  explicit EarlierBundle(const fs::path& folder) {
-    constexpr std::size_t kMost_bytes = std::size_t{1} << 20;
-    const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kLatex, kMost_bytes);
-    const std::string text(bytes.begin(), bytes.end());
-    is_there_ = text.starts_with(beginning_of_latex());
-    for (auto at = text.find_first_of(kPlain); is_there_ && at < text.size();) {
-      const std::size_t end = text.find_first_not_of(kPlain, at);
-      words_.insert(text.substr(at, end - at));
-      at = text.find_first_of(kPlain, end);
-    }
+/// The files of a bundle that an earlier run has left in the folder, among other words of its text
+/// for beamer, which names the files of all shots.
+std::set<std::string> earlier_files(const fs::path& folder) {
+  constexpr std::size_t kMost_bytes = std::size_t{1} << 20;
+  const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kLatex, kMost_bytes);
+  const std::string text(bytes.begin(), bytes.end());
+  if (!text.starts_with(kPreamble)) return {};
+  std::set<std::string> names(kFiles.begin(), kFiles.end());
+  for (auto at = text.find_first_of(kPlain); at < text.size();) {
+    const std::size_t end = text.find_first_not_of(kPlain, at);
+    names.insert(text.substr(at, end - at));
+    at = text.find_first_of(kPlain, end);
   }
-
-  /// Whether it has a file of this name, which is one of bundle_files().
-  bool has(const std::string& name) const {
-    return is_there_ && (std::ranges::find(kFiles, name) != kFiles.end() || words_.contains(name));
-  }
-
- private:
-  bool is_there_ = false;
-  std::set<std::string> words_;  // of the text for beamer, which names the files of all shots
-};
+  return names;
+}
 
 /// Checks all but the video, whose name the user has chosen.
 /// @throws UsageError if one of them would replace a file that is not from an earlier bundle.
-void check_names(const RenderJob& job, const EarlierBundle& earlier) {
+void check_names(const RenderJob& job, const std::set<std::string>& earlier) {
   std::error_code unknown;
   const std::vector<std::string> names = bundle_files(job);
   for (const std::string& name : std::span(names).subspan(1)) {
     const fs::path path = fs::path(job.bundle->folder) / name;
-    if (earlier.has(name) || !fs::exists(path, unknown)) continue;
+    if (earlier.contains(name) || !fs::exists(path, unknown)) continue;
     throw UsageError(fmt::format(
         "bundle: '{}' is there, but not from an earlier bundle; use another folder, or --overwrite "
         "to replace it",
@@ -162,10 +208,10 @@ void check_names(const RenderJob& job, const EarlierBundle& earlier) {
 }
 
 /// Files of shots that the earlier bundle of this video has, and the new one has not.
-void remove_rest(const RenderJob& job, const EarlierBundle& earlier, FileSet& files) {
+void remove_rest(const RenderJob& job, const std::set<std::string>& earlier, FileSet& files) {
   const std::vector<std::string> names = bundle_files(job);
   for (const std::string& name : files_of_shots(job.output, kMaxSegments)) {
-    if (earlier.has(name) && std::ranges::find(names, name) == names.end()) files.remove(name);
+    if (earlier.contains(name) && std::ranges::find(names, name) == names.end()) files.remove(name);
   }
 }
 
@@ -192,6 +238,65 @@ Profile render_shots(RenderJob job, const Film& film, FileSet& files, const OnPr
 
 }  // namespace
 
+std::string latex_slides(const Film& film, const std::string& video) {
+  const std::size_t count = film.segments().size();
+  std::string text(kPreamble);
+  if (count == 1) {
+    return text + "poster.\n" +
+           fmt::format(kMovie, fmt::arg("options", "showcontrols"), fmt::arg("height", "0.8"),
+                       fmt::arg("poster", "poster.png"), fmt::arg("name", video));
+  }
+  text +=
+      "last picture of a shot. impress.fodp has the same slides,\n% chapters.vtt is for the whole "
+      "video.\n";
+  for (std::size_t i = 1; i <= count; ++i) {
+    text += "\\begin{frame}[plain]\n" +
+            fmt::format(kMovie, fmt::arg("options", "autostart,showcontrols"),
+                        fmt::arg("height", ""), fmt::arg("poster", shot_name(video, i, ".png")),
+                        fmt::arg("name", shot_name(video, i, ".mp4"))) +
+            "\\end{frame}\n";
+  }
+  return text;
+}
+
+std::string reveal_slides(const Film& film, const std::string& video) {
+  const std::size_t count = film.segments().size();
+  const auto section = [&](const std::string& name, const std::string& poster,
+                           const std::string& alt, const std::string& captions) {
+    return fmt::format(
+        kSection, fmt::arg("name", name),
+        fmt::arg("poster", poster.empty() ? "" : fmt::format(" poster=\"{}\"", poster)),
+        fmt::arg("alt", escaped(alt)), fmt::arg("captions", data_address("text/vtt", captions)),
+        fmt::arg("controls", count == 1 ? "controls " : ""), fmt::arg("loop", loop_attribute(film)),
+        fmt::arg("transition", count == 1 ? "" : " data-transition=\"none\""));
+  };
+  if (count == 1) return section(video, "poster.png", describe_film(film), captions(film));
+  const std::vector<std::string> alts = describe_segments(film);
+  const std::vector<std::string> said = shot_captions(film);
+  std::string text;
+  for (std::size_t i = 1; i <= count; ++i) {
+    const std::string poster = i == 1 ? "" : shot_name(video, i - 1, ".png");
+    text += section(shot_name(video, i, ".mp4"), poster, alts[i - 1], said[i - 1]);
+  }
+  return text;
+}
+
+std::string impress_slides(const Film& film, const std::string& video) {
+  const std::string width = "28cm";
+  const std::string height =
+      fmt::format("{:.3f}cm", 28.0 * film.view().height_px / film.view().width_px);
+  const std::vector<std::string> alts = describe_segments(film);
+  std::string text =
+      fmt::format(kImpressHead, fmt::arg("width", width), fmt::arg("height", height));
+  for (std::size_t i = 1; i <= film.segments().size(); ++i) {
+    text += fmt::format(
+        kImpressSlide, fmt::arg("number", i), fmt::arg("width", width), fmt::arg("height", height),
+        fmt::arg("picture", shot_name(video, i, ".png")),
+        fmt::arg("name", shot_name(video, i, ".mp4")), fmt::arg("alt", escaped(alts[i - 1])));
+  }
+  return text + "</office:presentation></office:body></office:document>\n";
+}
+
 std::vector<std::string> bundle_files(const RenderJob& job) {
   std::vector<std::string> names{job.output};
   names.insert(names.end(), kFiles.begin(), kFiles.end());
@@ -202,7 +307,7 @@ std::vector<std::string> bundle_files(const RenderJob& job) {
 Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   check_bundle(job);
-  const EarlierBundle earlier(job.bundle->folder);
+  const std::set<std::string> earlier = earlier_files(job.bundle->folder);
   if (!job.overwrite) check_names(job, earlier);
   const Film film = film_of(job, stop);
   FileSet files(job.bundle->folder, "bundle");

@@ -1,5 +1,3 @@
-#include "render/captions.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +6,7 @@
 #include <utility>
 
 #include "core/text.hpp"
-#include "render/film_words.hpp"
+#include "render/video_text.hpp"
 
 namespace piblocks {
 namespace {

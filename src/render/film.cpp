@@ -35,11 +35,6 @@ std::size_t longest(const std::vector<std::unique_ptr<Log>>& logs) {
   return found;
 }
 
-FilmSegment made_from(const Segment& segment, const View& view, const FilmMaking& making) {
-  if (const auto* card = std::get_if<Card>(&segment.content)) return {*card, view, making};
-  return {std::get<Scenes>(segment.content), segment.split, view, making};
-}
-
 std::string place_of(const Storyboard& story, std::size_t segment) {
   const std::string& origin = story.segments[segment].origin;
   return origin.empty() ? fmt::format("part {}", segment + 1) : origin;
@@ -167,27 +162,27 @@ std::shared_ptr<const Image> read_logo(const Scene& scene) {
   return std::make_shared<const Image>(read_png(scene.show.logo));
 }
 
-FilmSegment::FilmSegment(const Scene& scene, const FilmMaking& making) { show_one(scene, making); }
-
-FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film,
-                         const FilmMaking& making) {
-  if (scenes.size() == 1) {
-    show_one(with_film_view(scenes.front(), film), making);
+FilmSegment::FilmSegment(const Segment& segment, const View& film, const FilmMaking& making) {
+  const auto* const scenes = std::get_if<Scenes>(&segment.content);
+  if (scenes == nullptr) {
+    card_ = std::get<Card>(segment.content);
+    show_card(film, making);
+  } else if (scenes->size() == 1) {
+    show_one(with_film_view(scenes->front(), film), making);
   } else {
-    compare(scenes, split, film, making);
+    compare(*scenes, segment.split, film, making);
   }
 }
 
-FilmSegment::FilmSegment(const Card& card, const View& film, const FilmMaking& making)
-    : card_(card) {
-  const Integer frames = ceil(card.length_s * film.frame_rate);
+void FilmSegment::show_card(const View& film, const FilmMaking& making) {
+  const Integer frames = ceil(card_.length_s * film.frame_rate);
   if (frames > to_integer(kMaxFrames)) {
     throw UsageError(
-        Problem{"seconds", fmt::format("= {}: {} frames are more than {}", to_text(card.length_s),
+        Problem{"seconds", fmt::format("= {}: {} frames are more than {}", to_text(card_.length_s),
                                        readable(frames), readable(to_integer(kMaxFrames)))});
   }
   frame_count_ = frames.get_si();
-  if (making.use == FilmUse::pictures) card_frame_ = card_frames(card, film);
+  if (making.use == FilmUse::pictures) card_frame_ = card_frames(card_, film);
 }
 
 void FilmSegment::show_one(Scene scene, const FilmMaking& making) {
@@ -252,7 +247,7 @@ Film::Film(const Script& script, const FilmMaking& making) : view_(view_of(scrip
   if (const auto* scene = std::get_if<Scene>(&script)) {
     require_valid(problems_of(*scene));
     is_scene_ = true;
-    segments_.push_back({FilmSegment(*scene, making)});
+    segments_.push_back({FilmSegment({.content = Scenes{*scene}}, view_, making)});
     frame_count_ = segments_.front().segment.frame_count();
     return;
   }
@@ -266,7 +261,7 @@ void Film::add_segments(const Storyboard& story, const FilmMaking& making) {
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < story.segments.size(); ++i) {
     try {
-      segments_.push_back({made_from(story.segments[i], view_, making)});
+      segments_.push_back({FilmSegment(story.segments[i], view_, making)});
     } catch (const UsageError& error) {
       for (Problem problem : error.problems()) {
         problem.origin = place_of(story, i) + (problem.origin.empty() ? "" : ": ") + problem.origin;

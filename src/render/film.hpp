@@ -84,10 +84,8 @@ std::shared_ptr<const Image> read_logo(const Scene& scene);
 /// Const members are thread-safe.
 class FilmSegment {
  public:
-  /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
-  FilmSegment(const Scene& scene, const FilmMaking& making);
-  FilmSegment(const Scenes& scenes, Split split, const View& film, const FilmMaking& making);
-  FilmSegment(const Card& card, const View& film, const FilmMaking& making);
+  /// @param segment  without problems. @throws UsageError, SimulationError, DrawError
+  FilmSegment(const Segment& segment, const View& film, const FilmMaking& making);
   FilmSegment(FilmSegment&&) = default;
   FilmSegment& operator=(FilmSegment&&) = default;
   FilmSegment(const FilmSegment&) = delete;
@@ -112,6 +110,7 @@ class FilmSegment {
   const Schedule* schedule() const noexcept { return schedule_ ? &*schedule_ : nullptr; }
 
  private:
+  void show_card(const View& film, const FilmMaking& making);
   void show_one(Scene scene, const FilmMaking& making);
   void compare(const Scenes& scenes, Split split, const View& film, const FilmMaking& making);
 

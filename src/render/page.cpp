@@ -7,14 +7,12 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "core/descriptor.hpp"
 #include "core/file_set.hpp"
 #include "core/stop.hpp"
 #include "core/text.hpp"
-#include "render/captions.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
@@ -115,11 +113,10 @@ void write_page(const Film& film, const fs::path& video, OutputFile& page,
 void check_page_size(const std::string& page, const fs::path& folder, const Progress& progress) {
   std::uintmax_t size = 0;
   std::error_code gone;  // a file that takes its name has gone for a moment
-  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end;
-       entry.increment(gone)) {
+  for (const fs::path& file : entries_of(folder, gone)) {
     std::error_code unknown;
-    const bool is_file = entry->is_regular_file(unknown);
-    const std::uintmax_t bytes = is_file ? entry->file_size(unknown) : 0;
+    const bool is_file = fs::is_regular_file(file, unknown);
+    const std::uintmax_t bytes = is_file ? fs::file_size(file, unknown) : 0;
     if (!unknown) size += bytes;
   }
   if (size <= kMostVideo_bytes) return;
@@ -153,11 +150,8 @@ Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
   check_stop(stop);
   page.finish();
   files.commit();
-  if (job.profile) {
-    const auto write = static_cast<std::size_t>(Step::write);
-    rendered.profile.steps[write] += clock.spent()[write];
-    rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
-  }
+  if (job.profile)
+    add(rendered.profile, {clock.spent(), processor_seconds(CLOCK_PROCESS_CPUTIME_ID)});
   return rendered;
 }
 

@@ -9,16 +9,15 @@
 #include "core/ordered_pool.hpp"
 #include "core/processors.hpp"
 #include "core/stop.hpp"
-#include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
-#include "render/captions.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/flash_meter.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
+#include "render/video_text.hpp"
 #include "scene/run_log.hpp"
 
 namespace piblocks {
@@ -257,23 +256,13 @@ int workers_of(const RenderJob& job, const View& view) {
 }
 
 /// Hands on how many frames of all workers are done, if that has changed.
-class FramesReport {
- public:
-  FramesReport(const std::atomic<std::int64_t>& done, std::int64_t count,
-               const OnProgress& on_progress)
-      : done_(done), count_(count), on_progress_(on_progress) {}
-
-  void operator()() {
-    const std::int64_t done = done_;
-    if (std::exchange(reported_, done) != done) on_progress_({done, count_});
-  }
-
- private:
-  const std::atomic<std::int64_t>& done_;
-  std::int64_t count_;
-  const OnProgress& on_progress_;
-  std::int64_t reported_ = -1;
-};
+std::function<void()> frames_report(const std::atomic<std::int64_t>& done, std::int64_t count,
+                                    const OnProgress& on_progress) {
+  return [&done, count, &on_progress, reported = std::int64_t{-1}]() mutable {
+    const std::int64_t now = done;
+    if (std::exchange(reported, now) != now) on_progress({now, count});
+  };
+}
 
 using Pool = OrderedPool<EncodedWork>;
 
@@ -308,7 +297,7 @@ Rendered render_chunks(const RenderJob& job, const Plan& plan, const OnProgress&
   const std::int64_t kept = sink->kept_frames();
   const std::int64_t first = std::max(range.begin, plan.chunks.ended_by(kept));
   std::atomic<std::int64_t> frames_done = kept;
-  FramesReport report(frames_done, rendered.frame_count, on_progress);
+  const auto report = frames_report(frames_done, rendered.frame_count, on_progress);
   report();
   StepClock clock(job.profile, Step::mux);
   SoundWork sound_work;

@@ -9,7 +9,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -53,6 +52,17 @@ Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
 /// The names of all these files, in the bundle's folder.
 std::vector<std::string> bundle_files(const RenderJob& job);
 
+/// For LaTeX beamer: a frame's content for a film of one segment, else a frame for each shot. Names
+/// all files of the shots.
+std::string latex_slides(const Film& film, const std::string& video);
+
+/// A <section> of reveal.js for the film, or for each shot. The poster of a shot is the last
+/// picture of the shot before, so that nothing flashes.
+std::string reveal_slides(const Film& film, const std::string& video);
+
+/// A flat OpenDocument presentation with a slide for each shot.
+std::string impress_slides(const Film& film, const std::string& video);
+
 /// join() of the shards of a silent MP4, to one with sound that was encoded elsewhere.
 /// @param sound  of the whole film; null: it stays silent
 Rendered join_with_sound(const std::vector<std::string>& parts, const std::string& output,
@@ -71,8 +81,7 @@ void check_page_size(const std::string& page, const std::filesystem::path& folde
 /// Renders the job's video as MP4, to the bytes that an output `*.mp4` would have, and the page
 /// that holds it.
 /// @throws UsageError if a part is asked for, or the background is transparent; as
-/// check_page_size()
-///         and render()
+///         check_page_size() and render()
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
@@ -89,8 +98,9 @@ DrawList still_picture(const Film& film, const Instant& instant);
 /// The bytes of a PNG file with the pixels of a frame. @throws DrawError, MediaError, Interrupted
 std::vector<std::uint8_t> draw_png(const DrawList& list, const std::stop_token& stop);
 
-/// Each picture is the still_picture() of its instant. @throws as still_picture(); Interrupted
-std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
+/// Each picture is the still_picture() of its instant, with its time. @throws as still_picture();
+/// Interrupted
+std::vector<CaptionedPicture> sheet_pictures(const FilmRun& run,
                                              const std::vector<Instant>& instants,
                                              const OnProgress& on_progress = {},
                                              const std::stop_token& stop = {});

@@ -288,9 +288,7 @@ bool has_shard(const std::string& path, const ShardHeader& header, const std::st
                     path, name));
   }
   try {
-    while (reader.next()) {
-      if (stop.stop_requested()) throw Interrupted();
-    }
+    while (reader.next()) check_stop(stop);
     return true;
   } catch (const IoError&) {
     return false;  // damaged

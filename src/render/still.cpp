@@ -2,8 +2,11 @@
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/two_blocks.hpp>
 
-#include <memory>
+#include <algorithm>
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -13,10 +16,10 @@
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "draw/montage.hpp"
+#include "draw/number_text.hpp"
 #include "physics/problems.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
-#include "render/sheet_captions.hpp"
 #include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
@@ -30,19 +33,13 @@ Bytes draw_page_png(const DrawList& page, const std::stop_token& /*stop*/) {
   return encode_png(draw_pixels(page).view());
 }
 
-Bytes draw_svg_file(const DrawList& list, const std::stop_token& /*stop*/) {
-  return draw_svg(list);
-}
-
-Bytes draw_pdf_file(const DrawList& list, const std::stop_token& /*stop*/) {
-  return draw_pdf(list);
-}
-
 /// @param command  named in messages, with the endings as its help lists them.
 Draw* drawing_for(std::string_view output, Draw* png, const char* command, const char* endings) {
   if (output == "-" || has_ending(output, ".png")) return png;
-  if (has_ending(output, ".svg")) return draw_svg_file;
-  if (has_ending(output, ".pdf")) return draw_pdf_file;
+  if (has_ending(output, ".svg"))
+    return [](const auto& list, const auto&) { return draw_svg(list); };
+  if (has_ending(output, ".pdf"))
+    return [](const auto& list, const auto&) { return draw_pdf(list); };
   throw UsageError(
       fmt::format("{}: '{}' has no known ending; use {}, or - for PNG on standard output", command,
                   output, endings));
@@ -80,10 +77,6 @@ struct ShownCollisions {
 
   Integer size() const { return last > before ? Integer(last - before) : 0; }
 };
-
-ShownCollisions collisions_of(const Span& span, const Log& log) {
-  return {log.count_at(span.from), log.count_at(span.to)};
-}
 
 std::vector<Instant> spread_over_count(const Span& span, const ShownCollisions& shown,
                                        int pictures) {
@@ -129,31 +122,114 @@ std::vector<Instant> spread_over(const Scene& scene, const Log& log, const Sprea
   check_count(pictures < 0 ? 0 : static_cast<std::size_t>(pictures));
   const Span span = span_of(scene, log);
   if (by == Spacing::time) return spread_over_time(span, pictures);
-  const ShownCollisions shown = collisions_of(span, log);
+  const ShownCollisions shown{log.count_at(span.from), log.count_at(span.to)};
   if (by == Spacing::count) check_spread_over_count(log, shown, pictures);
   return by.value_or(usual_spacing(log, span, shown, pictures)) == Spacing::count
              ? spread_over_count(span, shown, pictures)
              : spread_over_time(span, pictures);
 }
 
-std::vector<CaptionedPicture> pictures_of(const FilmRun& run, const std::vector<Instant>& instants,
-                                          const OnProgress& on_progress,
-                                          const std::stop_token& stop) {
-  std::vector<Rational> times;
-  times.reserve(instants.size());
-  for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
-  const std::vector<std::string> captions = sheet_captions(run.scene(), run.log(), instants, times);
-  std::vector<CaptionedPicture> pictures;
-  Progress progress{0, static_cast<std::int64_t>(times.size())};
-  std::vector<DrawList> stills = run.stills(times, [&] {
-    check_stop(stop);
-    ++progress.frames_done;
-    if (on_progress) on_progress(progress);
-  });
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    pictures.push_back({std::move(stills[i]), captions[i]});
+/// Significant digits of a time.
+constexpr int kUsualDigits = 6;
+constexpr int kMostDigits = 40;
+/// A number whose first digit is at this decimal place or further right is written with a power of
+/// ten.
+constexpr int kFirstDecimalOfPowers = 5;
+/// A time that looks like another is written from the turn if it is so many times nearer to it than
+/// to 0.
+constexpr int kNearTurn = 1000;
+
+void drop_last_zeros(std::string& decimal) {
+  if (decimal.find('.') == std::string::npos) return;
+  decimal.erase(decimal.find_last_not_of('0') + 1);
+  if (decimal.back() == '.') decimal.pop_back();
+}
+
+/// With so many significant digits, but no zeros behind the last one; a time that is beyond that is
+/// written with a power of ten.
+std::string time_text(const Rational& time, int digits) {
+  // What is rounded to ten times as much keeps a digit more than was asked for.
+  const long exponent = time == 0 ? 0 : magnitude_of(abs(time)).exponent;
+  const bool is_short = exponent > -kFirstDecimalOfPowers && exponent < kMostDigits;
+  const long unit = is_short ? 0 : exponent;
+  const Rational scaled = time / power_of_ten(unit);
+  const int decimals = static_cast<int>(std::max(0L, digits - 1 - (exponent - unit)));
+  std::string text = fixed_text(scaled, decimals);
+  drop_last_zeros(text);
+  return is_short ? text : fmt::format("{}×{}", text, power_text(unit));
+}
+
+/// "turn − 0.3"
+std::string text_from_turn(const Rational& after_turn, int digits) {
+  if (after_turn == 0) return "turn";
+  return fmt::format("turn {} {}", after_turn < 0 ? "−" : "+", time_text(abs(after_turn), digits));
+}
+
+/// A time, and how it is written.
+struct WrittenTime {
+  Rational time;
+  std::optional<Rational> turn;  ///< of the run
+  bool is_from_turn = false;
+  int digits = kUsualDigits;
+
+  std::string text() const {
+    return is_from_turn ? text_from_turn(time - *turn, digits) : time_text(time, digits);
   }
-  return pictures;
+  bool is_near_turn() const { return turn && abs(Rational(time - *turn)) * kNearTurn < abs(time); }
+};
+
+/// Writes it more exactly; false if it is exact enough.
+bool refine(WrittenTime& written) {
+  if (written.digits == kMostDigits) return false;
+  if (!written.is_from_turn && written.is_near_turn()) {
+    written.is_from_turn = true;
+  } else {
+    ++written.digits;
+  }
+  return true;
+}
+
+/// Writes times that differ but look alike more exactly; false if there are none.
+bool refine_clashes(std::vector<WrittenTime>& all, std::vector<std::string>& texts) {
+  using Extremes = std::pair<Rational, Rational>;
+  std::map<std::string, Extremes> times_by_text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Rational& time = all[i].time;
+    Extremes& seen = times_by_text.try_emplace(texts[i], time, time).first->second;
+    seen = {std::min(seen.first, time), std::max(seen.second, time)};
+  }
+  bool is_refined = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [least, greatest] = times_by_text.at(texts[i]);
+    if (least == greatest || !refine(all[i])) continue;
+    is_refined = true;
+    texts[i] = all[i].text();
+  }
+  return is_refined;
+}
+
+/// What is written below the pictures of a sheet: the time of each, as short as can be where
+/// different times are still written differently: "t = 3.5", or "t = turn − 2.1×10⁻⁷" if the
+/// instant is named so, if times near the turn look alike otherwise, or if the picture itself has
+/// the time. Empty where the picture has it and there is no turn.
+/// @param times  of the instants, in their order
+std::vector<std::string> sheet_captions(const Scene& scene, const Log& log,
+                                        const std::vector<Instant>& instants,
+                                        const std::vector<Rational>& times) {
+  const std::optional<Rational> turn = turn_of(log);
+  const bool picture_has_time = scene.show.has(Overlay::time);
+  if (picture_has_time && !turn) return std::vector<std::string>(times.size());
+  std::vector<WrittenTime> all;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const bool is_from_turn = picture_has_time || instants[i].anchor == Instant::Anchor::turn;
+    all.push_back({times[i], turn, is_from_turn});
+    texts.push_back(all.back().text());
+  }
+  while (refine_clashes(all, texts)) {
+  }
+  for (std::string& text : texts) text.insert(0, "t = ");
+  return texts;
 }
 
 /// Until the latest of these.
@@ -206,11 +282,25 @@ std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::opti
   return spread_over(scene, *log_of(scene), {pictures, by});
 }
 
-std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
+std::vector<CaptionedPicture> sheet_pictures(const FilmRun& run,
                                              const std::vector<Instant>& instants,
                                              const OnProgress& on_progress,
                                              const std::stop_token& stop) {
-  return pictures_of(run_of(scene, stop), instants, on_progress, stop);
+  std::vector<Rational> times;
+  times.reserve(instants.size());
+  for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
+  const std::vector<std::string> captions = sheet_captions(run.scene(), run.log(), instants, times);
+  std::vector<CaptionedPicture> pictures;
+  Progress progress{0, static_cast<std::int64_t>(times.size())};
+  std::vector<DrawList> stills = run.stills(times, [&] {
+    check_stop(stop);
+    ++progress.frames_done;
+    if (on_progress) on_progress(progress);
+  });
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    pictures.push_back({std::move(stills[i]), captions[i]});
+  }
+  return pictures;
 }
 
 std::vector<std::string> render_sheet(const Scene& scene, const SheetInstants& instants,
@@ -223,7 +313,7 @@ std::vector<std::string> render_sheet(const Scene& scene, const SheetInstants& i
   OutputFile file(output);
   const std::vector<Instant> shown =
       named != nullptr ? *named : spread_over(scene, run.log(), std::get<Spread>(instants));
-  std::vector<CaptionedPicture> pictures = pictures_of(run, shown, on_progress, stop);
+  std::vector<CaptionedPicture> pictures = sheet_pictures(run, shown, on_progress, stop);
   const bool is_png = draw == draw_page_png;
   const DrawList page = arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
                                 is_png ? kPageHeight_px : kPageHeight_pt);

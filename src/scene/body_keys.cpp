@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
-#include <span>
 #include <utility>
 
 #include "core/nearest_name.hpp"
@@ -45,12 +44,13 @@ std::optional<Rational> parse_end(const std::string& text, const char* none) {
   return parse_rational(text);
 }
 
-struct BodyKey {
+template <typename Read>
+struct TableKey {
   const char* name;
-  void (*set)(ReadBody& body, const Values& values);
+  void (*set)(Read& read, const Values& values);
 };
 
-constexpr auto kBodyKeys = std::to_array<BodyKey>({
+constexpr auto kBodyKeys = std::to_array<TableKey<ReadBody>>({
     {"mass", [](ReadBody& body,
                 const Values& values) { body.body.mass = parse_end(single(values), "inf"); }},
     {"position",
@@ -83,12 +83,17 @@ ExactVector parse_pair(const Values& values) {
   return {parse_rational(values[0]), parse_rational(values[1])};
 }
 
-struct WallKey {
-  const char* name;
-  void (*set)(Wall& wall, const Values& values);
-};
+/// Reads "[a, b]", in which "inf" and "-inf" stand for no wall. @throws UsageError
+BoxSide parse_box_side(const Values& values) {
+  if (values.size() != 2) throw UsageError("must be two numbers, as [0, 10]; \"inf\" is no wall");
+  BoxSide side{parse_end(values[0], "-inf"), parse_end(values[1], "inf")};
+  if (side.low && side.high && *side.low >= *side.high) {
+    throw UsageError("must go from the lower to the higher end");
+  }
+  return side;
+}
 
-constexpr auto kWallKeys = std::to_array<WallKey>({
+constexpr auto kWallKeys = std::to_array<TableKey<Wall>>({
     {"point", [](Wall& wall, const Values& values) { wall.point = parse_pair(values); }},
     {"normal", [](Wall& wall, const Values& values) { wall.normal = parse_pair(values); }},
     {"velocity", [](Wall& wall, const Values& values) { wall.velocity = parse_pair(values); }},
@@ -103,14 +108,15 @@ std::vector<std::string> names_of(const auto& keys) {
   return names;
 }
 
-/// @param axis  0 for x, 1 for y
-void add_walls(const std::optional<BoxSide>& side, const BoxVelocity& velocity, std::size_t axis,
-               const std::array<const char*, 2>& names, std::vector<Wall>& walls) {
-  if (!side) return;
-  const std::array ends = {side->low, side->high};
+/// Adds the walls of a box across an axis, 0 for x, 1 for y.
+void add_walls(const BoxSide& side, const std::array<Rational, 2>& velocity, std::size_t axis,
+               std::vector<Wall>& walls) {
+  constexpr std::array<std::array<const char*, 2>, 2> kNames = {
+      {{"left", "right"}, {"lower", "upper"}}};
+  const std::array ends = {side.low, side.high};
   for (const std::size_t end : {0U, 1U}) {
     if (!ends.at(end)) continue;
-    Wall wall{names.at(end), {}, {}};
+    Wall wall{kNames.at(axis).at(end), {}, {}};
     wall.point.at(axis) = *ends.at(end);
     wall.normal.at(axis) = end == 0 ? 1 : -1;
     wall.velocity.at(axis) = velocity.at(end);
@@ -137,7 +143,7 @@ ReadBody read_properties(
       add(entry.line, entry.key, {.reason = ": " + reason, .means_nothing = true});
     };
     const auto* const key =
-        std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
+        std::ranges::find(kBodyKeys, std::string_view(entry.key), &TableKey<ReadBody>::name);
     if (key == kBodyKeys.end()) {
       add_unread("unknown key" + did_you_mean(entry.key, names_of(kBodyKeys)));
     } else if (!entry.problem.empty()) {
@@ -178,20 +184,6 @@ Rational parse_restitution(const Values& values) {
     throw UsageError("must be from 0 (no rebound) to 1 (elastic)");
   }
   return share;
-}
-
-BoxVelocity parse_box_velocity(const Values& values) {
-  const ExactVector ends = parse_pair(values);
-  return {ends[0], ends[1]};
-}
-
-BoxSide parse_box_side(const Values& values) {
-  if (values.size() != 2) throw UsageError("must be two numbers, as [0, 10]; \"inf\" is no wall");
-  BoxSide side{parse_end(values[0], "-inf"), parse_end(values[1], "inf")};
-  if (side.low && side.high && *side.low >= *side.high) {
-    throw UsageError("must go from the lower to the higher end");
-  }
-  return side;
 }
 
 void BodyDraft::read(const std::string& path, std::vector<TomlTable> tables,
@@ -236,6 +228,18 @@ void BodyDraft::set(const std::string& origin, const std::string& key, const Val
   erase_property(number, property);
   tables_[number - 1].entries.push_back({property, values, {}, 0, {}});
   origins_[key] = origin;
+}
+
+bool BodyDraft::set_box(const std::string& key, const Values& values) {
+  const std::size_t axis = key.starts_with("box.x") ? 0 : 1;
+  if (key == "box.x" || key == "box.y") {
+    sides_.at(axis) = parse_box_side(values);
+  } else if (key == "box.x-velocity" || key == "box.y-velocity") {
+    velocities_.at(axis) = parse_pair(values);
+  } else {
+    return false;
+  }
+  return true;
 }
 
 void BodyDraft::put_bodies_into(Scene& scene, ProblemLines& problems) const {
@@ -298,7 +302,7 @@ void BodyDraft::read_walls(const std::string& path, const std::vector<TomlTable>
     bool is_read = true;
     for (const TomlEntry& entry : table.entries) {
       const auto* const key =
-          std::ranges::find(kWallKeys, std::string_view(entry.key), &WallKey::name);
+          std::ranges::find(kWallKeys, std::string_view(entry.key), &TableKey<Wall>::name);
       if (key == kWallKeys.end()) {
         problems.add(
             path, entry.line,
@@ -327,15 +331,16 @@ void BodyDraft::put_into(Scene& scene, ProblemLines& problems) const {
   put_bodies_into(scene, problems);
   std::vector<Wall>& walls = scene.system.walls;
   walls.clear();
-  add_walls(x_, velocities_[0], 0, {"left", "right"}, walls);
-  add_walls(y_, velocities_[1], 1, {"lower", "upper"}, walls);
+  for (const std::size_t axis : {0U, 1U}) {
+    add_walls(sides_.at(axis), velocities_.at(axis), axis, walls);
+  }
   walls.insert(walls.end(), slanted_.begin(), slanted_.end());
 }
 
 bool BodyDraft::moves_no_wall(std::size_t axis) const {
-  const std::optional<BoxSide>& side = axis == 0 ? x_ : y_;
-  const BoxVelocity& velocity = velocities_.at(axis);
-  return (velocity[0] != 0 && !(side && side->low)) || (velocity[1] != 0 && !(side && side->high));
+  const auto& [low, high] = sides_.at(axis);
+  const auto& [of_low, of_high] = velocities_.at(axis);
+  return (of_low != 0 && !low) || (of_high != 0 && !high);
 }
 
 std::string BodyDraft::origin_of(const std::string& key) const {

@@ -12,16 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/problem_lines.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 
 namespace piblocks {
-
-/// Velocities of both walls of a box along their axis.
-using BoxVelocity = std::array<Rational, 2>;
-/// @throws UsageError unless it is two numbers
-BoxVelocity parse_box_velocity(const Values& values);
 
 /// @throws UsageError unless it is from 0 to 1
 Rational parse_restitution(const Values& values);
@@ -31,9 +25,6 @@ struct BoxSide {
   std::optional<Rational> low = {};
   std::optional<Rational> high = {};
 };
-
-/// Reads "[a, b]", in which "inf" and "-inf" stand for no wall. @throws UsageError
-BoxSide parse_box_side(const Values& values);
 
 /// Collects bodies and box while a scene is read.
 class BodyDraft {
@@ -50,11 +41,8 @@ class BodyDraft {
   void leave_out(const std::string& key) { left_out_.push_back(key); }
   /// Ignores nothing in tables that are read from now on.
   void leave_out_nothing() { left_out_.clear(); }
-  void set_box_x(BoxSide side) { x_ = std::move(side); }
-  void set_box_y(BoxSide side) { y_ = std::move(side); }
-  void set_box_velocity(std::size_t axis, BoxVelocity velocity) {
-    velocities_.at(axis) = std::move(velocity);
-  }
+  /// Sets a key of the box. @returns false if this is none. @throws UsageError
+  bool set_box(const std::string& key, const Values& values);
 
   bool empty() const noexcept { return tables_.empty(); }
   /// Replaces the bodies of a scene, and walls. Adds what is wrong with the texts of bodies.
@@ -76,9 +64,9 @@ class BodyDraft {
   std::set<std::size_t> removed_;               // numbers of bodies
   std::vector<std::string> left_out_;           // keys
   std::map<std::string, std::string> origins_;  // of properties that were set
-  std::optional<BoxSide> x_;
-  std::optional<BoxSide> y_;
-  std::array<BoxVelocity, 2> velocities_;  // of the walls of both
+  // Of the box, by axis: where its walls are at time 0, and their velocities along the axis.
+  std::array<BoxSide, 2> sides_;
+  std::array<std::array<Rational, 2>, 2> velocities_;
   std::vector<Wall> slanted_;
   std::vector<std::size_t> slanted_lines_;
 };

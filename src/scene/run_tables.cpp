@@ -9,8 +9,6 @@
 #include <cstring>
 #include <optional>
 
-#include "scene/run_log.hpp"
-
 namespace piblocks {
 namespace {
 
@@ -41,21 +39,14 @@ void add_column(TableLayout& layout, const std::string& name, Kind kind, const c
 void add_motions(TableLayout& layout, const System& system,
                  const std::vector<std::string>& bodies) {
   const bool is_plane = system.dimensions == 2;
-  for (const char* const vector : {"x", "v"}) {
+  const auto add = [&](const char* vector, const std::vector<const char*>& coordinates) {
     for (const std::string& body : bodies) {
-      const std::string name = fmt::format("{}_{}", vector, body);
-      add_type(layout, name, "<f8", is_plane ? ", (2,)" : "");
-      if (!is_plane) {
-        add_column(layout, name);
-      } else if (name.front() == 'x') {
-        add_column(layout, "x_" + body);
-        add_column(layout, "y_" + body);
-      } else {
-        add_column(layout, "vx_" + body);
-        add_column(layout, "vy_" + body);
-      }
+      add_type(layout, fmt::format("{}_{}", vector, body), "<f8", is_plane ? ", (2,)" : "");
+      for (const char* const one : coordinates) add_column(layout, fmt::format("{}_{}", one, body));
     }
-  }
+  };
+  is_plane ? add("x", {"x", "y"}) : add("x", {"x"});
+  is_plane ? add("v", {"vx", "vy"}) : add("v", {"v"});
 }
 
 std::string bound_name(const std::string& body) { return fmt::format("x_{}_bound", body); }

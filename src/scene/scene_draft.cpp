@@ -8,9 +8,10 @@
 #include <filesystem>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/nearest_name.hpp"
 #include "core/whole_number.hpp"
-#include "scene/unknown_key.hpp"
 
 namespace piblocks {
 namespace {
@@ -30,8 +31,6 @@ std::optional<Problem> conflict_of(const TomlTable& table, const KeysOfOneValue&
                  .means_nothing = true};
 }
 
-int parse_digits(const Values& values) { return parse_int(single(values), 1, kMaxDigits); }
-
 /// Of the lecture themes, unless a scene says otherwise.
 const Rational kLectureShutter(1, 2);
 
@@ -46,6 +45,62 @@ std::string key_of(const Scene& scene, const std::string& key, bool has_bodies) 
   if (name == "left" || name == "right") return is_velocity ? "box.x-velocity" : "box.x";
   if (name == "lower" || name == "upper") return is_velocity ? "box.y-velocity" : "box.y";
   return fmt::format("wall {}{}", number_in(name, "slanted-"), key.substr(key.find('.')));
+}
+
+const std::vector<std::string> kListsOfTables = {"body", "wall", "part"};
+const std::vector<std::string> kKeysOfParts = {"card", "becomes", "seconds",
+                                               "fade", "compare", "split"};
+
+/// The keys of a scene outside of its lists of tables.
+std::vector<std::string> all_keys() {
+  std::vector<std::string> names = {"digits",    "mass-ratio",     "restitution",
+                                    "wall.mass", "wall.velocity",  "box.x",
+                                    "box.y",     "box.x-velocity", "box.y-velocity"};
+  for (const SceneKey& key : scene_keys()) names.emplace_back(key.name);
+  return names;
+}
+
+std::string_view last_part(std::string_view key) { return key.substr(key.rfind('.') + 1); }
+std::string first_part(const std::string& key) { return key.substr(0, key.find('.')); }
+
+bool is_table(std::string_view name) {
+  return std::ranges::any_of(
+      all_keys(), [&](const std::string& key) { return key.starts_with(std::string(name) + '.'); });
+}
+
+/// Prefers a key in a table to one that differs in a few letters: 'theme' means 'view.theme'.
+std::string advice(const std::string& key) {
+  std::vector<std::string> names = all_keys();
+  std::vector<std::string> same = names;
+  std::erase_if(same, [&](const std::string& name) { return last_part(name) != last_part(key); });
+  if (std::string near = did_you_mean(key, same); !near.empty()) return near;
+  if (!same.empty()) return fmt::format("; did you mean '{}'?", fmt::join(same, "' or '"));
+  names.insert(names.end(), kKeysOfParts.begin(), kKeysOfParts.end());
+  return did_you_mean(key, names);
+}
+
+/// "unknown key; did you mean 'view.size'?"
+std::string about_unknown_key(const std::string& key) {
+  const std::string table = first_part(key);
+  if (std::ranges::count(kKeysOfParts, key) > 0) return "unknown key; it belongs into a [[part]]";
+  const bool is_of_walls = key == "wall.point" || key == "wall.normal";
+  const std::string list =
+      is_of_walls || !is_table(table) ? nearest_name(table, kListsOfTables) : "";
+  if (!list.empty()) return fmt::format("unknown key; write [[{0}]], once for each {0}", list);
+  if (is_table(key)) return fmt::format("unknown key; a table is written [{}]", key);
+  return "unknown key" + advice(key);
+}
+
+/// The same for an entry, which may be a list of tables, such as [[bodi]]. Empty if the key exists.
+std::string about_unknown(const TomlEntry& entry) {
+  if (std::ranges::count(all_keys(), entry.key) > 0) return {};
+  if (entry.tables.empty()) return about_unknown_key(entry.key);
+  if (is_table(entry.key)) return fmt::format("is one table, written [{}]", entry.key);
+  const std::string near = nearest_name(entry.key, kListsOfTables);
+  if (!near.empty()) return fmt::format("unknown list of tables; did you mean '[[{}]]'?", near);
+  const std::string known = did_you_mean(entry.key, kKeysOfParts);
+  return "unknown list of tables" +
+         (known.empty() ? "; there are [[body]], [[wall]] and [[part]]" : known);
 }
 
 }  // namespace
@@ -95,13 +150,8 @@ void SceneDraft::read_bodies(const std::string& path, TomlEntry& entry) {
 
 /// @return whether it is a key of the box, or of a wall that recoils, moves or is not there
 bool SceneDraft::set_wall(const std::string& key, const Values& values) {
-  if (key == "box.x") {
-    bodies_.set_box_x(parse_box_side(values));
-  } else if (key == "box.y") {
-    bodies_.set_box_y(parse_box_side(values));
-  } else if (key == "box.x-velocity" || key == "box.y-velocity") {
-    bodies_.set_box_velocity(key == "box.x-velocity" ? 0 : 1, parse_box_velocity(values));
-  } else if (key == "wall.velocity") {
+  if (bodies_.set_box(key, values)) return true;
+  if (key == "wall.velocity") {
     wall_velocity_ = parse_rational(single(values));
   } else if (key == "wall.face") {
     has_wall_ = values != Values{"-inf"};
@@ -129,7 +179,8 @@ void SceneDraft::set(const std::string& origin, const std::string& key, const Va
 
 void SceneDraft::set_key(const std::string& origin, const std::string& key, const Values& values) {
   if (number_in(key, "body ") > 0) return bodies_.set(origin, key, values);
-  if (key == "digits") return set_mass_ratio(origin, parse_digits(values), std::nullopt);
+  if (key == "digits")
+    return set_mass_ratio(origin, parse_int(single(values), 1, kMaxDigits), std::nullopt);
   if (key == "mass-ratio") {
     return set_mass_ratio(origin, std::nullopt, parse_rational(single(values), kMaxMassBits));
   }
@@ -173,7 +224,11 @@ SceneDraft SceneDraft::next(const std::string& origin) const {
 
 Scene SceneDraft::scene(ProblemLines& problems) const {
   Scene scene = scene_;
-  set_shutter(scene.view);
+  // A blurred frame cannot be transparent.
+  const bool is_opaque = scene.view.background == Background::opaque;
+  if (is_lecture(scene.view.theme) && is_opaque && !origins_.contains("view.shutter")) {
+    scene.view.shutter = kLectureShutter;
+  }
   if (!bodies_.empty()) {
     bodies_.put_into(scene, problems);
     View seen = scene.view;
@@ -190,14 +245,6 @@ Scene SceneDraft::scene(ProblemLines& problems) const {
   if (width_by_mass_) red.size = width_by_mass(blue, red);
   change_wall(scene);
   return scene;
-}
-
-void SceneDraft::set_shutter(View& view) const {
-  // A blurred frame cannot be transparent.
-  const bool is_opaque = view.background == Background::opaque;
-  if (is_lecture(view.theme) && is_opaque && !origins_.contains("view.shutter")) {
-    view.shutter = kLectureShutter;
-  }
 }
 
 /// A wall of finite mass is a block, and one that moves the wall of a box.
@@ -224,11 +271,6 @@ std::string SceneDraft::origin_of(const std::string& key) const {
   }
   const std::string of_table = bodies_.origin_of(key);
   return of_table.empty() ? default_origin_ : of_table;
-}
-
-/// Whether other problems, which are reported, are the cause of this one.
-bool SceneDraft::is_repeated(const std::string& key) const {
-  return !bodies_.empty() && key.starts_with("view.") && !origins_.contains(key);
 }
 
 /// Keys of blue, red and the wall, where there are bodies instead; and a box without bodies.
@@ -263,7 +305,9 @@ Scene SceneDraft::make(ProblemLines& problems, bool of_film) const {
   check_bodies(found);
   for (Problem problem : problems_of(made)) {
     if (of_film && !is_film_key(problem.key)) continue;
-    if (!found.empty() && is_repeated(problem.key)) continue;
+    const bool follows_bodies =
+        !bodies_.empty() && problem.key.starts_with("view.") && !origins_.contains(problem.key);
+    if (follows_bodies && !found.empty()) continue;  // their problems are its cause
     problem.key = key_of(made, problem.key, !bodies_.empty());
     found.add(origin_of(problem.key), problem);
   }

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "scene/body_keys.hpp"
-#include "scene/problem_lines.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 
@@ -40,11 +39,9 @@ class SceneDraft {
   void read_bodies(const std::string& path, TomlEntry& entry);
   void add_unread(const std::string& origin, const std::string& key, const std::string& reason);
   void change_wall(Scene& scene) const;
-  void set_shutter(View& view) const;
   bool set_wall(const std::string& key, const Values& values);
   void check_bodies(ProblemLines& problems) const;
   std::string origin_of(const std::string& key) const;
-  bool is_repeated(const std::string& key) const;
   void set_key(const std::string& origin, const std::string& key, const Values& values);
   /// What red's mass follows from: one of the two, or neither.
   void set_mass_ratio(const std::string& origin, std::optional<int> digits,

@@ -20,6 +20,13 @@
 namespace piblocks {
 namespace {
 
+/// The values as one text for a message.
+std::string joined(const Values& values) {
+  if (values == Values{""}) return "''";
+  return shortened(values.size() == 1 ? values.front()
+                                      : fmt::format("[{}]", fmt::join(values, ", ")));
+}
+
 int parse_side(std::string_view text) {
   const std::optional<Integer> side = whole_number(text);
   if (side && side->fits_sint_p()) return static_cast<int>(side->get_si());
@@ -337,12 +344,6 @@ bool parse_bool(const Values& values) {
     throw UsageError(must_be_one_of(text, {"true", "false"}));
   }
   return text == "true";
-}
-
-std::string joined(const Values& values) {
-  if (values == Values{""}) return "''";
-  return shortened(values.size() == 1 ? values.front()
-                                      : fmt::format("[{}]", fmt::join(values, ", ")));
 }
 
 std::string normalized_item(std::string_view key, const std::string& text) {

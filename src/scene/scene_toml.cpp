@@ -1,5 +1,3 @@
-#include "scene/scene_toml.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -7,7 +5,6 @@
 #include <functional>
 #include <string_view>
 
-#include "core/text.hpp"
 #include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
 

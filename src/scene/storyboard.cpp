@@ -69,8 +69,7 @@ std::string described(const Segment& segment) {
 }  // namespace
 
 const View& view_of(const Script& script) {
-  if (const auto* scene = std::get_if<Scene>(&script)) return scene->view;
-  return std::get<Storyboard>(script).view;
+  return std::visit([](const auto& any) -> const View& { return any.view; }, script);
 }
 
 const Sound& sound_of(const Script& script) {

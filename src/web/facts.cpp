@@ -16,7 +16,6 @@
 #include "scene/body_keys.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
-#include "scene/scene_toml.hpp"
 #include "scene/shipped_scenes.hpp"
 #include "web/json.hpp"
 

@@ -14,7 +14,6 @@
 #include "core/text.hpp"
 #include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
-#include "scene/scene_toml.hpp"
 #include "web/choices.hpp"
 #include "web/facts.hpp"
 #include "web/json.hpp"

@@ -2,7 +2,7 @@
 #include <piblocks/error.hpp>
 
 #include "fuzz/input_file.hpp"
-#include "golden/hash_file.hpp"
+#include "golden/rows.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const piblocks::fuzz::InputFile file(data, size);

@@ -2,7 +2,6 @@
 // poppler, they are compared with it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <string>
 #include <vector>
 

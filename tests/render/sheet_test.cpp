@@ -109,7 +109,7 @@ TEST(SheetInstants, AreAtMostTwoHundred) {
 
 std::vector<std::string> captions_of(const Scene& scene, const std::vector<Instant>& instants) {
   std::vector<std::string> captions;
-  for (const CaptionedPicture& each : sheet_pictures(scene, instants)) {
+  for (const CaptionedPicture& each : sheet_pictures(run_of(scene), instants)) {
     captions.push_back(each.caption);
   }
   return captions;
@@ -139,7 +139,7 @@ TEST(SheetPictures, AreTheStillsOfTheirInstants) {
         scene.view.shutter = is_slow ? 0 : Rational(1, 2);
         scene.show.panels = {panel};
         scene.pacing.automatic_slow_motion = is_slow;
-        const std::vector<CaptionedPicture> pictures = sheet_pictures(scene, instants);
+        const std::vector<CaptionedPicture> pictures = sheet_pictures(run_of(scene), instants);
         ASSERT_EQ(pictures.size(), instants.size());
         for (std::size_t i = 0; i < instants.size(); ++i) {
           EXPECT_EQ(pictures[i].picture, still_picture(scene, instants[i])) << i;
@@ -158,9 +158,9 @@ TEST(SheetPictures, AreReportedOneByOneUntilStopped) {
     done.push_back(progress.frames_done);
     if (done.size() == 8) stop.request_stop();
   };
-  sheet_pictures(scene_of_digits(2), instants, on_progress, stop.get_token());
+  sheet_pictures(run_of(scene_of_digits(2)), instants, on_progress, stop.get_token());
   EXPECT_EQ(done, (std::vector<std::int64_t>{1, 2, 3, 4, 5}));
-  EXPECT_THROW(sheet_pictures(scene_of_digits(2), instants, on_progress, stop.get_token()),
+  EXPECT_THROW(sheet_pictures(run_of(scene_of_digits(2)), instants, on_progress, stop.get_token()),
                Interrupted);
   EXPECT_EQ(done.size(), 8);
 }

@@ -223,7 +223,7 @@ TEST(Still, RefusesASceneFilledInWrongly) {
   Scene flat;
   flat.view.x.high = flat.view.x.low;
   EXPECT_THROW(still_picture(flat, Rational(3)), SceneError);
-  EXPECT_THROW(sheet_pictures(flat, {Rational(3)}), SceneError);
+  EXPECT_THROW(sheet_pictures(run_of(flat), {Rational(3)}), SceneError);
   EXPECT_THROW(spread_instants(endless, 3), SceneError);
 }
 

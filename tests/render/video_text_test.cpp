@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "render/captions.hpp"
 #include "support/contains.hpp"
 #include "support/script_of.hpp"
 #include "support/temporary_folder.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_toml.hpp"
+#include "scene/scene_keys.hpp"
 #include "support/script_of.hpp"
 
 namespace piblocks {

@@ -10,7 +10,6 @@
 #include <map>
 #include <string>
 
-#include "scene/scene_toml.hpp"
 #include "support/contains.hpp"
 
 namespace piblocks {

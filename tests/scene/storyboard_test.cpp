@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "scene/file_fixture.hpp"
-#include "scene/scene_toml.hpp"
+#include "scene/scene_keys.hpp"
 
 namespace piblocks {
 namespace {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "draw/found_items.hpp"
-#include "render/captions.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"
@@ -129,7 +128,8 @@ void expect_everywhere(const TwoBlocks& system) {
     SCOPED_TRACE(exact_text(at.instant));
     const std::string count = at.count.get_str();
     EXPECT_EQ(shown_count(still_picture(scene, at.instant)), count);
-    EXPECT_EQ(shown_count(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
+    EXPECT_EQ(shown_count(sheet_pictures(run_of(scene), {at.instant}).front().picture), count)
+        << "sheet";
     expect_in_films(scene, at);
     expect_in_texts(scene, at);
   }
@@ -159,7 +159,8 @@ TEST(CountsShown, AreInTheBaseOfTheScene) {
     for (const Anchored& at : anchors_of(*log)) {
       const std::string count = at.count.get_str(base);
       EXPECT_EQ(shown_count(still_picture(scene, at.instant)), count);
-      EXPECT_EQ(shown_count(sheet_pictures(scene, {at.instant}).front().picture), count) << "sheet";
+      EXPECT_EQ(shown_count(sheet_pictures(run_of(scene), {at.instant}).front().picture), count)
+          << "sheet";
       expect_in_texts(scene, at);
     }
   }

@@ -21,7 +21,6 @@
 #include "core/output_file.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/text.hpp"
-#include "golden/diff_pictures.hpp"
 #include "golden/difference.hpp"
 #include "golden/picture_list.hpp"
 #include "golden/reports.hpp"

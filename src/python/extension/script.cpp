@@ -17,7 +17,6 @@
 #include "python/extension/without_gil.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
-#include "scene/scene_toml.hpp"
 #include "scene/shipped_scenes.hpp"
 
 namespace piblocks::python {
