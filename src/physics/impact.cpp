@@ -6,7 +6,6 @@
 
 #include "core/real.hpp"
 #include "core/two_sum.hpp"
-#include "physics/inelastic_log.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {

@@ -71,6 +71,10 @@ std::unique_ptr<PairLog> make_valid_pair_log(const System& system,
 /// @param system  with m_red <= m_blue, or at rest.
 std::unique_ptr<PairLog> make_exact_log(const System& system);
 
+/// The closed form of blocks that lose energy where they collide.
+/// @throws SimulationError as RoundPowers.
+std::unique_ptr<PairLog> make_inelastic_log(const System& system);
+
 /// Engine::events, which advances positions to the next collision of any pair, in double precision.
 /// @throws UsageError if the collisions are more than kMaxStoredCollisions.
 /// @throws SimulationError if a number leaves its range, or the rounding of double precision more

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "physics/inelastic_log.hpp"
+#include "physics/exact_motion.hpp"
 #include "physics/logs.hpp"
 #include "physics/problems.hpp"
 #include "physics/unfolded_log.hpp"
@@ -158,7 +158,7 @@ std::unique_ptr<PairStream> PairLog::stream(const Integer& first, const Integer&
 
 std::unique_ptr<PairLog> make_valid_pair_log(const System& system, Engine engine) {
   if (engine == Engine::events) return make_event_log(system);
-  if (!is_elastic(system)) return std::make_unique<InelasticLog>(system);
+  if (!is_elastic(system)) return make_inelastic_log(system);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
   const TwoBlocks blocks = two_blocks_of(system).value();
