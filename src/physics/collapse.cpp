@@ -3,13 +3,12 @@
 #include <piblocks/contact.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
-
-#include "physics/impact.hpp"
 
 namespace piblocks {
 namespace {
@@ -22,8 +21,17 @@ constexpr std::size_t kLeastAtOnce = 1024;
 /// meets as often in a corner, and almost elastically, keeps more.
 constexpr double kMostSpeedLeft = 0x1p-16;
 
+/// The speed along the line between two with which they part.
 double parting_speed(const System& system, const StoredStep& step) {
-  return parting_speed(system, step.second, step.first_after, step.second_after);
+  const auto& [x, u] = step.first_after;
+  const auto& [y, v] = step.second_after;
+  std::array<double, 2> way = {y[0] - x[0], y[1] - x[1]};
+  if (step.second >= system.bodies.size()) {
+    const ExactVector& normal = system.walls[step.second - system.bodies.size()].normal;
+    way = {-to_double(normal[0]), -to_double(normal[1])};
+  }
+  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
+  return std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
 }
 
 /// Of three on a line that have met, the one that meets both others.

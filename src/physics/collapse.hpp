@@ -9,15 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "physics/stepper.hpp"
+
 namespace piblocks {
 
-struct StoredStep {
-  Time time;
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
-  Motion first_after;
-  Motion second_after;
-};
 /// Numbers of steps, ascending.
 using StepNumbers = std::vector<std::uint32_t>;
 

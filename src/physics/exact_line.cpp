@@ -104,7 +104,8 @@ std::vector<LineElement> elements_of(const System& system) {
 
 SteppedCollision step_of(const Time& time, std::uint32_t left_id, const Motion& left,
                          std::uint32_t right_id, const Motion& right) {
-  SteppedCollision step{.time = time};
+  SteppedCollision step;
+  step.time = time;
   const bool is_left_first = left_id < right_id;
   std::tie(step.first, step.second) = std::minmax(left_id, right_id);
   step.first_after = is_left_first ? left : right;

@@ -1,6 +1,5 @@
 #include "physics/impact.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -58,20 +57,6 @@ bool is_at_wall(const System& system, const Collision& collision) {
 }
 
 }  // namespace
-
-double parting_speed(const System& system, std::uint32_t second, const Motion& first_after,
-                     const Motion& second_after) {
-  std::array<double, 2> way = {second_after.position[0] - first_after.position[0],
-                               second_after.position[1] - first_after.position[1]};
-  if (second >= system.bodies.size()) {
-    const ExactVector& normal = system.walls[second - system.bodies.size()].normal;
-    way = {-to_double(normal[0]), -to_double(normal[1])};
-  }
-  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
-  const auto& u = first_after.velocity;
-  const auto& v = second_after.velocity;
-  return std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
-}
 
 std::optional<Impact> UnfoldedLog::blocks_impact(CollisionKind kind, const Integer& first,
                                                  const Integer& last) const {

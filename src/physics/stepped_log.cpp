@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/stop.hpp"
-#include "physics/block_motion.hpp"
 #include "physics/collapse.hpp"
 #include "physics/logs.hpp"
 #include "physics/stepper.hpp"
@@ -299,10 +298,10 @@ class SteppedLog final : public Log {
     for (const std::uint32_t body : {step->first, step->second}) {
       if (body < of_body_.size()) of_body_[body].push_back(number);
     }
-    const bool is_wall = step->second >= of_body_.size();
-    steps_.push_back({step->time, step->first, step->second, step->first_after,
-                      is_wall ? moved(motion_at_start(system(), step->second), step->time.hi)
-                              : step->second_after});
+    steps_.push_back(*step);
+    if (step->second >= of_body_.size()) {
+      steps_.back().second_after = moved(motion_at_start(system(), step->second), step->time.hi);
+    }
     if (!is_elastic_) find_collapse();
   }
 

@@ -12,16 +12,19 @@
 
 namespace piblocks {
 
-/// One collision; motions are those just after it.
-struct SteppedCollision {
+/// What is stored of a collision; motions are those just after it.
+struct StoredStep {
   Time time;
-  std::optional<Rational> exact_time = {};  ///< if the engine knows it
-  /// Whether one of the two has another collision at this time; false if not known.
-  bool is_tied = false;
   std::uint32_t first = 0;  ///< as in Collision
   std::uint32_t second = 0;
   Motion first_after = {};
   Motion second_after = {};
+};
+
+struct SteppedCollision : StoredStep {
+  std::optional<Rational> exact_time = {};  ///< if the engine knows it
+  /// Whether one of the two has another collision at this time; false if not known.
+  bool is_tied = false;
 };
 
 inline constexpr double kForEver = std::numeric_limits<double>::infinity();
