@@ -6,13 +6,10 @@
 #include <optional>
 
 #include "physics/exact_line.hpp"
-#include "physics/overlaps.hpp"
 #include "physics/problems.hpp"
 
 namespace piblocks {
 namespace {
-
-Rational dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 /// Collects what is wrong with each body alone. In closed form masses may be of any size.
 void check_body(const System& system, std::size_t index, bool is_pair, SceneProblems& problems) {
@@ -100,6 +97,10 @@ std::string key_of(const System& system, std::size_t body, const char* value) {
 }
 std::string noun_of(const Wall& wall) {
   return wall.name == "wall" ? wall.name : wall.name + " wall";
+}
+
+void require_valid(const std::vector<Problem>& problems) {
+  if (!problems.empty()) throw SceneError(problems);
 }
 
 std::vector<Problem> problems_of(const System& system) {
