@@ -11,12 +11,8 @@ namespace {
 /// A matrix is inverted in the cube of this number of steps.
 constexpr std::size_t kMostAtOnce = 100;
 
-bool is_movable(const DiscSystem& system, std::uint32_t body) {
-  return body < system.discs.size() && system.is_movable(body);
-}
-
 double inverse_mass(const DiscSystem& system, std::uint32_t body) {
-  return is_movable(system, body) ? 1 / system.masses[body] : 0;
+  return system.is_movable(body) ? 1 / system.masses[body] : 0;
 }
 
 /// Of the second from the first; of a wall only along its normal.
@@ -131,7 +127,7 @@ std::vector<std::uint32_t> moved_bodies(const DiscSystem& system, const Stage& s
   std::vector<std::uint32_t> bodies;
   for (const Touch& touch : stage.touches) {
     for (const std::uint32_t body : {touch.first, touch.second}) {
-      if (is_movable(system, body)) bodies.push_back(body);
+      if (system.is_movable(body)) bodies.push_back(body);
     }
   }
   std::ranges::sort(bodies);
@@ -215,7 +211,7 @@ std::optional<Stage> stage_of(const DiscSystem& system, const std::vector<Touch>
 bool are_decided(const DiscSystem& system, const std::vector<Touch>& touches, double least_speed) {
   return std::ranges::all_of(touches, [&](const Touch& touch) {
     double error = given_error(system, touch) + system.bounds[touch.first].velocity;
-    if (is_movable(system, touch.second)) error += system.bounds[touch.second].velocity;
+    if (system.is_movable(touch.second)) error += system.bounds[touch.second].velocity;
     const double beyond = std::abs(closing_speed(system, touch) - least_speed);
     return beyond > error * kUp + 0x1p-10 * least_speed;
   });
@@ -248,7 +244,7 @@ bool widen(DiscSystem& system, const Stage& stage) {
 
 void apply(DiscSystem& system, const Touch& touch, double impulse) {
   for (const std::uint32_t body : {touch.first, touch.second}) {
-    if (!is_movable(system, body)) continue;
+    if (!system.is_movable(body)) continue;
     const double change = impulse / system.masses[body];
     Vector& velocity = system.discs[body].velocity;
     velocity = velocity + (body == touch.first ? -change : change) * touch.normal;

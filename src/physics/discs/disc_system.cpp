@@ -149,7 +149,7 @@ std::vector<std::array<double, 2>> restitutions_of(const System& system) {
 
 double DiscSystem::restitution(std::uint32_t first, std::uint32_t second) const {
   if (restitutions.empty()) return 1;
-  const bool is_free = is_movable(first) && second < discs.size() && is_movable(second);
+  const bool is_free = is_movable(first) && is_movable(second);
   const std::size_t kind = is_free ? 0 : 1;
   return std::min(restitutions[first][kind], restitutions[second][kind]);
 }

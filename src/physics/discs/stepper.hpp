@@ -1,5 +1,5 @@
 // The engine for discs from within: what it knows and what its parts do.
-// In: a System without problems. Out: see disc_stepper.hpp.
+// In: a System without problems. Out: see physics/stepper.hpp.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 #include "physics/discs/at_once.hpp"
 #include "physics/discs/bounds.hpp"
-#include "physics/discs/disc_stepper.hpp"
+#include "physics/discs/cells.hpp"
 #include "physics/discs/event_tree.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks::discs {
 
@@ -58,9 +59,10 @@ struct Struck {
 /// the queue until it is due: no sooner can the disc meet anybody else, so it is planned anew then.
 /// (One event a disc: Lubachevsky, "How to simulate billiards and similar systems", J. Comput.
 /// Phys. 94, 1991.)
-class Stepper final : public DiscStepper {
+class Stepper final : public piblocks::Stepper {
  public:
-  Stepper(const System& system, Search search)
+  /// Both searches give the same numbers.
+  explicit Stepper(const System& system, Search search = Search::cells)
       : system_(disc_system_of(system)),
         discs_(system_.discs),
         number_(static_cast<std::uint32_t>(discs_.size())),
@@ -79,7 +81,9 @@ class Stepper final : public DiscStepper {
 
   std::optional<SteppedCollision> step() override;
   double certain_until() const override { return until_ * system_.units.time; }
-  Bound bound_of(std::uint32_t body) const override {
+  /// While all is certain: how far the true flight of a body since its last collision may be from
+  /// the computed one, in the units of the system.
+  Bound bound_of(std::uint32_t body) const {
     const Bound& bound = system_.bounds[body];
     const Units& units = system_.units;
     return {bound.position * units.length, bound.velocity * units.speed,
@@ -151,7 +155,7 @@ class Stepper final : public DiscStepper {
   void end_certainty(double time);
   Vector place_of(std::uint32_t disc, double time) const;
   Motion motion_of(std::uint32_t disc, double time) const;
-  static void require_finite(const SteppedCollision& step);
+  SteppedCollision step_of(std::uint32_t disc, std::uint32_t partner, double time) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
   double earliest_but(std::uint32_t excepted, std::uint32_t body);
