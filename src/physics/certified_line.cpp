@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <memory>
 #include <utility>
 
 #include "core/two_sum.hpp"
@@ -47,7 +47,7 @@ double speed_rounding(const LineElement& element) {
 CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Rational& begin,
                              bool is_at_once)
     : pairs_(elements.size() - 1),
-      next_(std::max<std::size_t>(pairs_.size(), 1), Earlier{*this}),
+      next_(pairs_.size(), Earlier{*this}),
       begin_(to_time(begin)),
       is_at_once_(is_at_once) {
   for (const LineElement& exact : elements) {
@@ -66,6 +66,7 @@ CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Ration
     const LineElement& left = elements[i];
     const LineElement& right = elements[i + 1];
     Pair& pair = pairs_[i];
+    pair.rank = rank_of(left, right);
     pair.left_factor = factor_of(left, right, left.restitution);
     pair.right_factor = factor_of(right, left, left.restitution);
     pair.gap_per_norm = kSpare * std::sqrt(inverse_mass(left) + inverse_mass(right));
@@ -77,20 +78,14 @@ CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Ration
   }
   position_budget_ = kBudget * position_error_;
   velocity_budget_ = kBudget * velocity_error_;
-  if (!pairs_.empty()) predict_all();
+  predict_all();
 }
 
 bool CertifiedLine::Earlier::operator()(std::size_t a, std::size_t b) const {
-  if (line.pairs_.empty()) return false;
   const Pair& first = line.pairs_[a];
   const Pair& second = line.pairs_[b];
   if (first.due != second.due) return first.due < second.due;
-  const auto rank_of = [this](std::size_t pair) {
-    const Element& left = line.elements_[pair];
-    const Element& right = line.elements_[pair + 1];
-    return TieRank::of(left.id, left.is_movable, right.id, right.is_movable);
-  };
-  return first.due < kNever && rank_of(a) < rank_of(b);
+  return first.due < kNever && first.rank < second.rank;
 }
 
 CertifiedLine::Approach CertifiedLine::approach(std::size_t pair) const {
@@ -247,6 +242,42 @@ std::optional<SteppedCollision> CertifiedLine::step() {
 double CertifiedLine::certain_until() const {
   if (is_certain()) return kForEver;
   return std::nextafter(begin_.hi, 0.0) + certain_until_ * (1 - 0x1p-50);
+}
+
+namespace {
+
+/// Exact as long as its numbers are short and its steps not too many.
+class LineStepper final : public Stepper {
+ public:
+  explicit LineStepper(const System& system)
+      : is_at_once_(are_at_once(system)), exact_(std::in_place, system) {}
+
+  std::optional<SteppedCollision> step() override {
+    if (certified_) return certified_->step();
+    std::optional<SteppedCollision> step = exact_->step();
+    const bool is_long = ++steps_ >= kMaxExactCollisions || exact_->bits() > kMaxExactBits;
+    if (is_long && !exact_->is_within_stage()) {
+      certified_.emplace(exact_->elements(), exact_->time(), is_at_once_);
+      exact_.reset();
+    }
+    return step;
+  }
+
+  double certain_until() const override {
+    return certified_ ? certified_->certain_until() : kForEver;
+  }
+
+ private:
+  bool is_at_once_;
+  std::optional<ExactLine> exact_;  // one of the two
+  std::optional<CertifiedLine> certified_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_line_stepper(const System& system) {
+  return std::make_unique<LineStepper>(system);
 }
 
 }  // namespace piblocks

@@ -44,6 +44,7 @@ class CertifiedLine {
   };
   /// Two neighbours.
   struct Pair {
+    TieRank rank;
     double left_factor = 0;  ///< of the closing speed: by how much the left one's velocity changes
     double right_factor = 0;
     /// sqrt(1/m_left + 1/m_right): an error of norm E changes their gap by E times this at most.

@@ -116,15 +116,15 @@ SteppedCollision step_of(const Time& time, std::uint32_t left_id, const Motion& 
 ExactLine::ExactLine(const System& system)
     : elements_(elements_of(system)),
       meetings_(elements_.size() - 1),
-      next_(std::max<std::size_t>(meetings_.size(), 1), Earlier{*this}),
+      next_(meetings_.size(), Earlier{*this}),
       is_at_once_(are_at_once(system)) {
   for (std::size_t pair = 0; pair < meetings_.size(); ++pair) predict(pair);
-  if (!meetings_.empty()) next_.replay_all();
+  next_.replay_all();
 }
 
 bool ExactLine::Earlier::operator()(std::size_t a, std::size_t b) const {
   const auto& [meetings, elements] = std::tie(line.meetings_, line.elements_);
-  if (meetings.empty() || !meetings[a]) return false;
+  if (!meetings[a]) return false;
   if (!meetings[b]) return true;
   const int order = cmp(*meetings[a], *meetings[b]);
   if (order != 0) return order < 0;
