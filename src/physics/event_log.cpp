@@ -5,7 +5,6 @@
 #include <array>
 #include <utility>
 
-#include "physics/block_motion.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/logs.hpp"
 #include "physics/stepper.hpp"
@@ -22,41 +21,17 @@ struct StoredCollision {
 };
 using StoredCollisions = std::vector<StoredCollision>;
 
-/// Records collisions, and stops an engine that finds many more than there are.
-class Recorder {
- public:
-  explicit Recorder(const ExactMotion& motion)
-      : starts_in_contact_(!motion.through_corner() &&
-                           (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0)),
-        collisions_(motion.total()),
-        limit_(2 * collisions_.get_ui() + 100) {}
-
-  void record(StoredCollision collision) {
-    if (log_.size() == limit_) {
-      throw SimulationError(fmt::format(
-          "event loop: more than {} collisions in double precision; the exact count is {}; use the "
-          "closed form (--engine unfolded)",
-          limit_, collisions_.get_str()));
-    }
-    require_finite(collision.time, collision.blue, collision.red, "event loop");
-    // Rounding must not carry a collision past time 0, nor away from it.
-    if (collision.time.hi < 0 || (starts_in_contact_ && log_.empty())) collision.time = {};
-    log_.push_back(collision);
-  }
-  StoredCollisions take() { return std::move(log_); }
-
- private:
-  bool starts_in_contact_;  // the first collision happens exactly at time 0
-  Integer collisions_;
-  std::size_t limit_;
-  StoredCollisions log_;
-};
-
-/// The article's event loop.
+/// The article's event loop. It stops if it finds many more collisions than there are.
 StoredCollisions event_loop(const TwoBlocks& blocks) {
+  const ExactMotion motion(blocks);
+  const Integer count = motion.total();
+  const std::size_t limit = 2 * count.get_ui() + 100;
+  // The first collision then happens exactly at time 0.
+  const bool starts_in_contact =
+      !motion.through_corner() && (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0);
+  StoredCollisions log;
   const System system = system_of(blocks);
   const auto stepper = make_event_stepper(system);
-  Recorder recorder{ExactMotion(blocks)};
   // Blue, red and the wall.
   std::array<BlockMotion, 3> bodies = {motion_of(blocks.blue), motion_of(blocks.red)};
   double now = 0;
@@ -65,11 +40,20 @@ StoredCollisions event_loop(const TwoBlocks& blocks) {
     now = step->time.hi;
     bodies.at(step->first) = {step->first_after.position[0], step->first_after.velocity[0]};
     bodies.at(step->second) = {step->second_after.position[0], step->second_after.velocity[0]};
+    if (log.size() == limit) {
+      throw SimulationError(fmt::format(
+          "event loop: more than {} collisions in double precision; the exact count is {}; use the "
+          "closed form (--engine unfolded)",
+          limit, count.get_str()));
+    }
+    require_finite(step->time, bodies[0], bodies[1], "event loop");
+    // Rounding must not carry a collision past time 0, nor away from it.
+    const bool is_at_start = step->time.hi < 0 || (starts_in_contact && log.empty());
     const bool is_at_wall = step->second == system.bodies.size();
-    recorder.record({step->time, is_at_wall ? CollisionKind::wall : CollisionKind::blocks,
-                     bodies[0], bodies[1]});
+    log.push_back({is_at_start ? Time{} : step->time,
+                   is_at_wall ? CollisionKind::wall : CollisionKind::blocks, bodies[0], bodies[1]});
   }
-  return recorder.take();
+  return log;
 }
 
 Time negated(const Time& time) { return {-time.hi, -time.lo}; }

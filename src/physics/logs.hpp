@@ -43,6 +43,26 @@ std::vector<double> sample_times(std::size_t count);
 /// @throws UsageError if the time is negative.
 void require_not_negative(const Rational& time);
 
+inline BlockMotion motion_of(const Block& block) {
+  return {to_double(block.position), to_double(block.velocity)};
+}
+
+/// The motion at a time until which the block meets nothing, rounded once.
+inline BlockMotion motion_at(const Block& block, const Rational& time) {
+  return {to_double(block.position + block.velocity * time), to_double(block.velocity)};
+}
+
+inline BlockMotion reversed(const BlockMotion& motion) {
+  return {motion.position, -motion.velocity};
+}
+
+/// The same blocks with opposite velocities: what they do is the past of `system`, backwards.
+inline TwoBlocks reversed(TwoBlocks system) {
+  system.blue.velocity = -system.blue.velocity;
+  system.red.velocity = -system.red.velocity;
+  return system;
+}
+
 /// @param engine  named in the message.
 /// @throws SimulationError if a number is not finite.
 void require_finite(const Time& time, const BlockMotion& blue, const BlockMotion& red,

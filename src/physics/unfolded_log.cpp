@@ -9,7 +9,6 @@
 
 #include "core/rounded.hpp"
 #include "core/two_sum.hpp"
-#include "physics/block_motion.hpp"
 #include "physics/logs.hpp"
 
 namespace piblocks {
