@@ -1,5 +1,3 @@
-#include "physics/collapse.hpp"
-
 #include <piblocks/contact.hpp>
 
 #include <algorithm>
@@ -9,6 +7,9 @@
 #include <iterator>
 #include <set>
 #include <utility>
+#include <vector>
+
+#include "physics/stepper.hpp"
 
 namespace piblocks {
 namespace {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/stop.hpp"
-#include "physics/collapse.hpp"
 #include "physics/logs.hpp"
 #include "physics/stepper.hpp"
 
@@ -332,17 +331,11 @@ class SteppedLog final : public Log {
 
   /// The steps up to this time, which have been computed.
   std::size_t steps_until(const Rational& time) const {
-    std::size_t low = 0;
-    std::size_t high = steps_.size();
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (time_of(middle) <= time) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return low;
+    const auto has_happened = [&](const StoredStep& step) {
+      return time_of(static_cast<std::size_t>(&step - steps_.data())) <= time;
+    };
+    const auto next = std::ranges::partition_point(steps_, has_happened);
+    return static_cast<std::size_t>(next - steps_.begin());
   }
 
   Rational time_of(std::size_t step) const {

@@ -50,15 +50,6 @@ double coupling(const DiscSystem& system, const Touch& one, const Touch& other) 
   return sum * dot(one.normal, other.normal);
 }
 
-std::vector<double> matrix_of(const DiscSystem& system, const std::vector<Touch>& touches) {
-  std::vector<double> matrix;
-  matrix.reserve(touches.size() * touches.size());
-  for (const Touch& one : touches) {
-    for (const Touch& other : touches) matrix.push_back(coupling(system, one, other));
-  }
-  return matrix;
-}
-
 /// Without pivoting, which symmetric positive definite matrices do not need. Nothing if the matrix
 /// is nearly singular.
 std::optional<std::vector<double>> inverse_of(std::vector<double> matrix, std::size_t size) {
@@ -82,7 +73,10 @@ std::optional<std::vector<double>> inverse_of(std::vector<double> matrix, std::s
 /// Fills in the impulses. @return whether they are determined
 bool solve(const DiscSystem& system, Stage& stage) {
   const std::size_t size = stage.touches.size();
-  stage.matrix = matrix_of(system, stage.touches);
+  stage.matrix.clear();
+  for (const Touch& one : stage.touches) {
+    for (const Touch& other : stage.touches) stage.matrix.push_back(coupling(system, one, other));
+  }
   const auto inverse = inverse_of(stage.matrix, size);
   if (!inverse) return false;
   stage.trace = stage.inverse_trace = 0;
@@ -112,15 +106,23 @@ bool drop_pulling(Stage& stage) {
   return true;
 }
 
-/// Whether all have one coefficient, or do not influence each other.
-bool is_contraction(const Stage& stage) {
+/// Whether this is true of the numbers of some two touches.
+template <typename IsTrue>
+bool any_pair(const Stage& stage, const IsTrue& is_true) {
   for (std::size_t i = 0; i < stage.touches.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const bool is_same = stage.touches[i].restitution == stage.touches[j].restitution;
-      if (!is_same && !stage.are_independent(i, j)) return false;
+      if (is_true(i, j)) return true;
     }
   }
-  return true;
+  return false;
+}
+
+/// Whether all have one coefficient, or do not influence each other.
+bool is_contraction(const Stage& stage) {
+  return !any_pair(stage, [&](std::size_t i, std::size_t j) {
+    return stage.touches[i].restitution != stage.touches[j].restitution &&
+           stage.influence(i, j) != 0;
+  });
 }
 
 std::vector<std::uint32_t> moved_bodies(const DiscSystem& system, const Stage& stage) {
@@ -174,18 +176,10 @@ struct StageErrors {
 
 }  // namespace
 
-bool Stage::are_independent(std::size_t one, std::size_t other) const {
-  return matrix[one * touches.size() + other] == 0;
-}
-
 bool Stage::is_tied() const {
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const double own = matrix[i * touches.size() + i];
-      if (std::abs(matrix[i * touches.size() + j]) > 0x1p-30 * own) return true;
-    }
-  }
-  return false;
+  return any_pair(*this, [&](std::size_t i, std::size_t j) {
+    return std::abs(influence(i, j)) > 0x1p-30 * influence(i, i);
+  });
 }
 
 double closing_speed(const DiscSystem& system, const Touch& touch) {

@@ -143,7 +143,8 @@ std::uint64_t Stepper::rank_of(std::uint32_t disc, std::uint32_t partner) const 
 /// A meeting that may truly be none is in doubt from when on it is possible.
 void Stepper::doubt_graze(std::uint32_t disc) {
   Plan& plan = plans_[disc];
-  if (!is_certain() || plan.is_doubt || plan.time == kNever || is_stale(plan)) return;
+  if (!is_certain() || plan.is_doubt || plan.time == kNever) return;
+  if (is_stale(plan.partner, plan.meetings)) return;
   if (meeting_error(disc, plan.partner, plan.time)) return;
   plan.is_doubt = true;
   plan.time = plan.possible;
@@ -187,7 +188,8 @@ std::optional<SteppedCollision> Stepper::step() {
     const double time = queue_.first_time();
     if (next.crossing <= time) {
       cross(disc);
-    } else if (is_stale(next) || (has_rival(next) && is_stale(next.rival))) {
+    } else if (is_stale(next.partner, next.meetings) ||
+               (has_rival(next) && is_stale(next.rival.partner, next.rival.meetings))) {
       plan(disc);
     } else if (next.is_doubt || has_rival(next)) {
       if (is_certain()) until_ = std::max(time, 0.0);

@@ -117,8 +117,9 @@ class Stepper final : public piblocks::Stepper {
   bool are_joint(std::uint32_t disc, const Plan& plan, const Plan& loser) const;
   static bool has_rival(const Plan& plan) { return plan.rival.possible < plan.time; }
   std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
-  template <typename Planned>
-  bool is_stale(const Planned& planned) const;
+  bool is_stale(std::uint32_t partner, std::uint32_t meetings) const {
+    return is_disc(partner) && discs_[partner].meetings != meetings;
+  }
   void doubt_graze(std::uint32_t disc);
   void enqueue(std::uint32_t disc);
   void cross(std::uint32_t body);
@@ -138,8 +139,12 @@ class Stepper final : public piblocks::Stepper {
   /// @returns a list that is valid until the next call
   const std::vector<std::uint32_t>& discs_near(std::uint32_t body);
   void forget_near() { near_[0].body = near_[1].body = kNobody; }
+  /// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
   template <typename Visit>
-  void visit_all(std::uint32_t body, Visit visit);
+  void visit_all(std::uint32_t body, Visit visit) {
+    for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
+    for (const std::uint32_t other : discs_near(body)) visit(other);
+  }
   bool meet_alone(std::uint32_t disc, std::uint32_t partner, double time);
   Cluster cluster_of(std::uint32_t disc, std::uint32_t partner, double time);
   bool is_single(const Cluster& cluster) const;
@@ -181,17 +186,5 @@ class Stepper final : public piblocks::Stepper {
       events_;  ///< of each disc, the last one at once if it met nobody since
   std::vector<std::vector<std::uint32_t>> touched_;  ///< whom each disc did not approach after it
 };
-
-template <typename Planned>
-bool Stepper::is_stale(const Planned& planned) const {
-  return is_disc(planned.partner) && discs_[planned.partner].meetings != planned.meetings;
-}
-
-/// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
-template <typename Visit>
-void Stepper::visit_all(std::uint32_t body, Visit visit) {
-  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
-  for (const std::uint32_t other : discs_near(body)) visit(other);
-}
 
 }  // namespace piblocks::discs
