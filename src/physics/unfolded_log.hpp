@@ -7,7 +7,6 @@
 
 #include "physics/exact_motion.hpp"
 #include "physics/impact.hpp"
-#include "physics/unfolded_exposure.hpp"
 #include "physics/unfolding.hpp"
 
 namespace piblocks {
