@@ -6,12 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#include "core/real.hpp"
+
 namespace piblocks {
 namespace {
-
-std::size_t bits_of(const Rational& value) {
-  return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
-}
 
 Motion motion_of(const LineElement& element) {
   return {{to_double(element.position), 0}, {to_double(element.velocity), 0}};
@@ -153,7 +151,7 @@ std::optional<SteppedCollision> ExactLine::step() {
 bool ExactLine::meet() {
   if (meetings_.empty() || !meetings_[next_.winner()]) return false;
   take_stage();
-  bits_ = bits_of(time_);
+  bits_ = size_bits(time_);
   if (stage_.size() == 1 || !strike_at_once()) {
     put_back_all_but_first();
     collide(elements_[stage_[0]], elements_[stage_[0] + 1]);
@@ -217,7 +215,7 @@ void ExactLine::report(std::size_t pair) {
   const LineElement& left = elements_[pair];
   const LineElement& right = elements_[pair + 1];
   for (const LineElement* const element : {&left, &right}) {
-    bits_ = std::max({bits_, bits_of(element->position), bits_of(element->velocity)});
+    bits_ = std::max({bits_, size_bits(element->position), size_bits(element->velocity)});
   }
   SteppedCollision step =
       step_of(to_time(time_), left.id, motion_of(left), right.id, motion_of(right));

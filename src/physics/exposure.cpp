@@ -9,21 +9,6 @@
 namespace piblocks {
 namespace {
 
-/// From an instant and its state to a later one, from collision to collision.
-void add_flights(const PairLog& log, Time now, const Integer& count, const Rational& end,
-                 const PairState& stop, PieceList& pieces) {
-  const auto go_to = [&](const Time& time, const BlockMotion& blue, const BlockMotion& red) {
-    // The times of an event loop can be out of order by their rounding.
-    pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue.position, red.position);
-    now = time;
-  };
-  for (Integer index = count + 1; index <= stop.count; ++index) {
-    const PairCollision collision = log.blocks_collision(index);
-    go_to(collision.time, collision.blue, collision.red);
-  }
-  go_to(to_time(end), stop.blue, stop.red);
-}
-
 std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
   const double length = path.back().after;
   if (!(length > 0)) return {{0, 1, path.front().position, path.back().position}};
@@ -151,7 +136,17 @@ PairExposure PairLog::expose(const Rational& from, const Rational& to) const {
   const PairState start = blocks_at(from);
   const PairState stop = blocks_at(to);
   PieceList pieces(start.blue.position, start.red.position);
-  add_flights(*this, to_time(from), start.count, to, stop, pieces);
+  Time now = to_time(from);
+  const auto go_to = [&](const Time& time, const BlockMotion& blue, const BlockMotion& red) {
+    // The times of an event loop can be out of order by their rounding.
+    pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue.position, red.position);
+    now = time;
+  };
+  for (Integer index = start.count + 1; index <= stop.count; ++index) {
+    const PairCollision collision = blocks_collision(index);
+    go_to(collision.time, collision.blue, collision.red);
+  }
+  go_to(to_time(to), stop.blue, stop.red);
   return pieces.exposure();
 }
 

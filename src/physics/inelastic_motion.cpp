@@ -15,10 +15,6 @@ namespace {
 constexpr long kEnergyLeft_bits = 200;
 constexpr long kTimeLeft_bits = 100;
 
-/// Longest numbers from which the time of a collision is computed exactly. Longer ones would slow
-/// down everything that is computed with that time.
-constexpr double kShortTime_bits = 256;
-
 /// A term of so many bits has the right sign.
 constexpr mpfr_prec_t kSign_bits = 8;
 

@@ -1,4 +1,4 @@
-#include "sound/leveller.hpp"
+#include "sound/soundtrack.hpp"
 
 #include <gtest/gtest.h>
 
