@@ -160,31 +160,30 @@ std::vector<std::vector<PathPoint>> PairLog::paths(const Rational& from, const R
   const std::size_t blue = blocks_.blue_id;
   const std::size_t red = blocks_.red_id;
   std::vector<std::vector<PathPoint>> paths(system().bodies.size());
-  const auto add = [&](double after, const Rational& time) {
-    const State state = state_at(time);
-    for (const std::size_t body : {blue, red}) {
-      paths[body].push_back({after, state.bodies[body].position});
-    }
+  const auto add = [&](std::size_t body, double after, const BlockMotion& motion) {
+    paths[body].push_back({after, body_motion_of(motion).position});
   };
-  const auto add_collision = [&](const Integer& index) {
-    const Collision found = collision(index);
-    const double after = to_double(to_rational(found.time) - from);
-    for (const std::size_t body : {blue, red}) {
-      if (found.first == body) paths[body].push_back({after, found.first_after.position});
-      if (found.second == body) paths[body].push_back({after, found.second_after.position});
-    }
+  const auto add_both = [&](double after, const Rational& time) {
+    const PairState state = blocks_at(time);
+    add(blue, after, state.blue);
+    add(red, after, state.red);
   };
   const Integer first = count_at(from) + 1;
   const Integer last = count_at(to);
   if (last - first >= Integer(most)) {
     for (const double share : sample_times(most)) {
       const Rational after = (to - from) * Rational(share);
-      add(to_double(after), from + after);
+      add_both(to_double(after), from + after);
     }
   } else {
-    add(0, from);
-    for (Integer index = first; index <= last; ++index) add_collision(index);
-    add(to_double(to - from), to);
+    add_both(0, from);
+    for (Integer index = first; index <= last; ++index) {
+      const PairCollision found = blocks_collision(index);
+      const double after = to_double(to_rational(found.time) - from);
+      add(blue, after, found.blue);
+      if (found.kind == CollisionKind::blocks) add(red, after, found.red);
+    }
+    add_both(to_double(to - from), to);
   }
   for (std::size_t body = 0; body < paths.size(); ++body) {
     if (body == blue || body == red) continue;
