@@ -5,7 +5,6 @@
 
 #include "core/real.hpp"
 #include "core/two_sum.hpp"
-#include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -57,34 +56,6 @@ bool is_at_wall(const System& system, const Collision& collision) {
 }
 
 }  // namespace
-
-std::optional<Impact> UnfoldedLog::blocks_impact(CollisionKind kind, const Integer& first,
-                                                 const Integer& last) const {
-  const bool odd = kind == CollisionKind::blocks;
-  Integer from = ray_of(first);
-  Integer to = ray_of(last);
-  if (is_odd(from) != odd) ++from;
-  if (is_odd(to) != odd) --to;
-  if (from > to) return std::nullopt;
-  const RayView seen = view_of(from, to);
-  // The impulse of a collision in the middle, times sin(n theta)/sin theta (README.md, "Many
-  // collisions as one").
-  const double one = seen.ray.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
-  double number = 1;
-  if (from != to) {
-    const Integer n = (to - from) / 2 + 1;
-    number = form_.direction(to_time(Rational(n)), {}).sine / form_.step.sine;
-  }
-  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.ray.sine);
-  return Impact{kind, time(from, to, seen), one * number, form_.blue_offset + reach * form_.ell};
-}
-
-Integer UnfoldedLog::count_near(const Time& time) const {
-  LinePoint point = point_at(tau_near(time), time);
-  point.decided = true;
-  const Rational exact = exact_.through_corner() ? to_rational(time) : Rational(0);
-  return exact_.count_from_ray(phase_of(point, exact).ray);
-}
 
 std::optional<Impact> PairLog::impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const {

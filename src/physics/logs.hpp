@@ -91,6 +91,11 @@ std::unique_ptr<PairLog> make_valid_pair_log(const System& system,
 /// @param system  with m_red <= m_blue, or at rest.
 std::unique_ptr<PairLog> make_exact_log(const System& system);
 
+/// The closed form of elastic blocks, of which red is the heavier one.
+/// @throws UsageError if the mass ratio is beyond 2^2000.
+/// @throws SimulationError if the blocks pass the corner closer than a double can tell.
+std::unique_ptr<PairLog> make_unfolded_log(const System& system);
+
 /// The closed form of blocks that lose energy where they collide.
 /// @throws SimulationError as RoundPowers.
 std::unique_ptr<PairLog> make_inelastic_log(const System& system);

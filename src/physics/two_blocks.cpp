@@ -12,7 +12,6 @@
 #include "physics/inelastic_motion.hpp"
 #include "physics/logs.hpp"
 #include "physics/problems.hpp"
-#include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -264,7 +263,7 @@ std::unique_ptr<PairLog> make_valid_pair_log(const System& system, Engine engine
   const TwoBlocks blocks = two_blocks_of(system).value();
   const bool is_at_rest = blocks.blue.velocity == 0 && blocks.red.velocity == 0;
   if (blocks.red.mass <= blocks.blue.mass || is_at_rest) return make_exact_log(system);
-  return std::make_unique<UnfoldedLog>(system);
+  return make_unfolded_log(system);
 }
 
 std::unique_ptr<PairLog> make_pair_log(const System& system, Engine engine) {
