@@ -28,10 +28,6 @@ constexpr double kSpare = 1 + 0x1p-40;
 /// Doubts are predicted for errors so many times larger than those so far.
 constexpr double kBudget = 8;
 
-double root_of(const std::optional<Rational>& mass) {
-  return mass ? std::sqrt(to_double(*mass)) : 0;
-}
-
 double inverse_mass(const LineElement& element) {
   return element.mass ? to_double(1 / *element.mass) : 0;
 }
@@ -61,7 +57,7 @@ class CertifiedLine final : public Stepper {
       element.half_width = to_double(exact.half_width);
       element.position = to_double(exact.position_at(begin));
       element.velocity = to_double(exact.velocity);
-      element.root_mass = root_of(exact.mass);
+      element.root_mass = exact.mass ? std::sqrt(to_double(*exact.mass)) : 0;
       element.is_movable = exact.mass.has_value();
       is_lossy_ = is_lossy_ || exact.restitution < 1;
       position_error_ += element.root_mass * kUnitRoundoff * std::fabs(element.position);

@@ -51,10 +51,6 @@ double impulse_of(const System& system, const Collision& collision) {
   return mass(is_first ? collision.first : collision.second) * change;
 }
 
-bool is_at_wall(const System& system, const Collision& collision) {
-  return is_immovable(system, collision.first) || is_immovable(system, collision.second);
-}
-
 }  // namespace
 
 std::optional<Impact> PairLog::impact(CollisionKind kind, const Integer& first,
@@ -99,8 +95,9 @@ std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
   std::optional<Impact> sum;
   for (Integer index = first; index <= last; ++index) {
     const Collision found = collision(index);
-    if ((kind == CollisionKind::wall) != is_at_wall(system(), found)) continue;
-    const bool is_first_fixed = !system().bodies[found.first].mass;
+    const bool is_first_fixed = is_immovable(system(), found.first);
+    const bool is_at_wall = is_first_fixed || is_immovable(system(), found.second);
+    if ((kind == CollisionKind::wall) != is_at_wall) continue;
     const Motion& seen = is_first_fixed ? found.second_after : found.first_after;
     if (!sum) sum = Impact{kind, found.time, 0, seen.position[0]};
     sum->impulse += impulse_of(system(), found);

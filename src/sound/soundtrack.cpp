@@ -34,10 +34,6 @@ constexpr double kMostEnergy = 0.02625 * 19200;
 /// processors down.
 constexpr double kSilence = 1e-20;
 
-std::int64_t to_nearest(const Rational& value) {
-  return floor(Rational(value + Rational(1, 2))).get_si();
-}
-
 void check(std::span<const Stretch> stretches) {
   const bool is_in_order = std::ranges::is_sorted(stretches, {}, &Stretch::video_s);
   if (!stretches.empty() && stretches.front().video_s == 0 && is_in_order) return;
@@ -146,7 +142,7 @@ StereoSample Limiter::next(const StereoSample& pair) {
 
 Soundtrack::Soundtrack(std::vector<Voice> voices, const Rational& duration_s)
     : duration_s_(duration_s),
-      size_(to_nearest(duration_s * kRate_hz)),
+      size_(floor(Rational(duration_s * kRate_hz + Rational(1, 2))).get_si()),
       voices_(std::move(voices)),
       limiter_(kCeiling, kRate_hz) {
   for (const Voice& voice : voices_) check(voice.stretches);

@@ -79,10 +79,8 @@ void Stepper::plan_end_of_margin(std::uint32_t disc) {
   const Bound& bound = system_.bounds[disc];
   const double room = cells_.margin() / 4 - bound.position;
   if (room > 0 && bound.velocity == 0) return;
-  Plan proposal;
-  proposal.time = discs_[disc].time + (room > 0 ? room / bound.velocity : 0);
-  proposal.is_doubt = true;
-  if (proposal.time != kNever) propose(disc, proposal);
+  const double time = discs_[disc].time + (room > 0 ? room / bound.velocity : 0);
+  if (time != kNever) propose(disc, {.time = time, .is_doubt = true});
 }
 
 /// Two free bodies separate for ever. An immovable one is as if it had met nobody else.

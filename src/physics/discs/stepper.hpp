@@ -94,9 +94,6 @@ class Stepper final : public piblocks::Stepper {
   bool is_certain() const { return until_ == kNever; }
   bool is_disc(std::uint32_t partner) const { return partner < number_; }
   const WallLine& wall_of(std::uint32_t partner) const { return system_.walls[partner - number_]; }
-  std::uint32_t end_of_walls() const {
-    return number_ + static_cast<std::uint32_t>(system_.walls.size());
-  }
 
   /// Whether the order in which a disc meets both does not matter: neither changes how the disc
   /// moves towards the other. True of a wall along x and one along y.
@@ -142,7 +139,7 @@ class Stepper final : public piblocks::Stepper {
   /// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
   template <typename Visit>
   void visit_all(std::uint32_t body, Visit visit) {
-    for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
+    for (std::uint32_t wall = 0; wall < system_.walls.size(); ++wall) visit(number_ + wall);
     for (const std::uint32_t other : discs_near(body)) visit(other);
   }
   bool meet_alone(std::uint32_t disc, std::uint32_t partner, double time);
