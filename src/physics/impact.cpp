@@ -20,23 +20,6 @@ double impulse_of(const Rational& mass_ratio, const PairCollision& collision) {
   return sqrt(Real(kPrecision_bits, change * change / speed_squared)).to_double();
 }
 
-/// The impulse that a body of mean mass would get if it met a wall at the mean speed. Sums have
-/// more bits than are seen: those of exact fractions would grow with the number of bodies.
-double usual_impulse(const System& system) {
-  constexpr mpfr_prec_t kPrecision_bits = 256;
-  Real mass(kPrecision_bits, 0);
-  Real twice_energy(kPrecision_bits, 0);
-  unsigned long movable = 0;
-  for (const Body& body : system.bodies) {
-    if (!body.mass) continue;
-    const auto& [x, y] = body.velocity;
-    mass = mass + Real(kPrecision_bits, *body.mass);
-    twice_energy = twice_energy + Real(kPrecision_bits, *body.mass * (x * x + y * y));
-    ++movable;
-  }
-  return 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
-}
-
 /// From the velocities of the lighter one: the change of the other may be lost in rounding.
 double impulse_of(const System& system, const Collision& collision) {
   const auto mass = [&](std::uint32_t id) {
@@ -105,8 +88,21 @@ std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
   return sum;
 }
 
+/// Sums have more bits than are seen: those of exact fractions would grow with the number of
+/// bodies.
 double Log::impulse_unit() const {
-  const double usual = usual_impulse(system());
+  constexpr mpfr_prec_t kPrecision_bits = 256;
+  Real mass(kPrecision_bits, 0);
+  Real twice_energy(kPrecision_bits, 0);
+  unsigned long movable = 0;
+  for (const Body& body : system().bodies) {
+    if (!body.mass) continue;
+    const auto& [x, y] = body.velocity;
+    mass = mass + Real(kPrecision_bits, *body.mass);
+    twice_energy = twice_energy + Real(kPrecision_bits, *body.mass * (x * x + y * y));
+    ++movable;
+  }
+  const double usual = 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
   return usual > 0 ? usual : 1;
 }
 
