@@ -3,7 +3,7 @@
 
 #include <cerrno>
 
-#include "core/durability.hpp"
+#include "core/descriptor.hpp"
 
 namespace piblocks {
 

@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/durability.hpp"
+#include "core/descriptor.hpp"
 
 namespace piblocks {
 namespace {

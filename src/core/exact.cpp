@@ -3,12 +3,14 @@
 #include <piblocks/exact.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "core/real.hpp"
 #include "core/text.hpp"
+#include "core/whole_number.hpp"
 
 namespace piblocks {
 namespace {
@@ -134,10 +136,47 @@ class NumberReader {
   std::int64_t max_bits_;
 };
 
+/// floor(pi * base^places)
+Integer floor_of_pi(int base, unsigned long places) {
+  const Integer scale = power(base, places).get_num();
+  // Few guard bits do in most cases. The loop ends: pi is irrational.
+  constexpr mpfr_prec_t kGuard_bits = 8;
+  constexpr mpfr_prec_t kMore_bits = 64;
+  auto bits = static_cast<mpfr_prec_t>(mpz_sizeinbase(scale.get_mpz_t(), 2)) + kGuard_bits;
+  for (;; bits += kMore_bits) {
+    const Rational nearest = Real::pi(bits).to_rational();
+    // pi is between 2 and 4, so the last of its bits is worth 2^(2 - bits).
+    const Rational error = scaled(Real(bits, 1), 1 - bits).to_rational();
+    Integer below = floor((nearest - error) * scale);
+    if (below == floor((nearest + error) * scale)) return below;
+  }
+}
+
 }  // namespace
 
 Rational parse_rational(std::string_view text, std::int64_t max_bits) {
   return NumberReader(trimmed(text), max_bits).quotient();
+}
+
+std::optional<Integer> whole_number(std::string_view text) {
+  try {
+    const Rational value = parse_rational(text);
+    if (value.get_den() == 1) return value.get_num();
+  } catch (const UsageError&) {  // the caller says better what is wanted
+  }
+  return std::nullopt;
+}
+
+Integer parse_whole_number(std::string_view text, const Integer& low,
+                           const std::optional<Integer>& high) {
+  const std::optional<Integer> value = whole_number(text);
+  if (value && *value >= low && (!high || *value <= *high)) return *value;
+  const std::string upper = high ? "to " + high->get_str() : "on";
+  throw UsageError(fmt::format("must be a whole number from {} {}", low.get_str(), upper));
+}
+
+int parse_int(std::string_view text, int low, int high) {
+  return static_cast<int>(parse_whole_number(text, low, Integer(high)).get_si());
 }
 
 Rational rational_from_decimal(double value) {
@@ -186,6 +225,18 @@ std::string with_thousands_separators(const Integer& value) {
   const std::size_t first = text.front() == '-' ? 1 : 0;
   for (std::size_t end = text.size(); end > first + 3; end -= 3) text.insert(end - 3, 1, ',');
   return text;
+}
+
+std::string count_text(const Integer& value, int base) {
+  assert(base >= kMinBase && base <= kMaxBase);
+  return base == kUsualBase ? with_thousands_separators(value) : value.get_str(base);
+}
+
+std::string pi_digits(int base, std::size_t count) {
+  assert(base >= kMinBase && base <= kMaxBase);
+  const std::size_t whole = floor_of_pi(base, 0).get_str(base).size();
+  if (count <= whole) return floor_of_pi(base, 0).get_str(base).substr(0, count);
+  return floor_of_pi(base, count - whole).get_str(base).insert(whole, ".");
 }
 
 std::string readable(const Integer& value) {

@@ -11,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/durability.hpp"
 #include "core/input_file.hpp"
 
 namespace piblocks {

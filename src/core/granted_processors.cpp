@@ -21,22 +21,16 @@ std::optional<double> positive(std::string_view text) {
   return double(value);
 }
 
-std::optional<double> quotient(const std::optional<double>& quota,
-                               const std::optional<double>& period) {
-  if (!quota || !period) return std::nullopt;
-  return *quota / *period;
-}
-
 /// The limit of one group. Version 2 keeps "QUOTA PERIOD" in cpu.max, version 1 a file for each.
 std::optional<double> limit_of(const std::string& folder, bool is_version_2, const ReadText& read) {
-  if (!is_version_2) {
-    return quotient(positive(read(folder + "/cpu.cfs_quota_us").value_or("")),
-                    positive(read(folder + "/cpu.cfs_period_us").value_or("")));
-  }
-  const std::string text = read(folder + "/cpu.max").value_or("");
-  const std::size_t blank = std::min(text.find(' '), text.size());
-  return quotient(positive(text),
-                  positive(std::string_view(text).substr(std::min(blank + 1, text.size()))));
+  const auto text = [&](const char* file) { return read(folder + file).value_or(""); };
+  const std::vector<std::string> parts =
+      is_version_2 ? split(text("/cpu.max"), ' ')
+                   : std::vector{text("/cpu.cfs_quota_us"), text("/cpu.cfs_period_us")};
+  const auto quota = positive(parts.front());
+  const auto period = parts.size() > 1 ? positive(parts[1]) : std::nullopt;
+  if (!quota || !period) return std::nullopt;
+  return *quota / *period;
 }
 
 /// The path of the process's group in the hierarchy; nothing if the text has none.

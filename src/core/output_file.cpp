@@ -9,8 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/durability.hpp"
-
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {

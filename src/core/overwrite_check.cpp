@@ -58,9 +58,16 @@ std::vector<FileId> folders_around(const fs::path& folder) {
   return ids;
 }
 
+void add_files(FileClaim& claim, const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
+  }
+  std::ranges::sort(claim.files);
+}
+
 FileClaim file_claim(const std::string& what, const fs::path& file) {
   FileClaim claim{what, file.string()};
-  if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
+  add_files(claim, {file});
   const fs::path target = target_of(file);
   claim.folder = place_of(target.parent_path());
   claim.around = folders_around(target.parent_path());
@@ -74,20 +81,11 @@ FileClaim folder_claim(const std::string& what, const fs::path& folder, FileName
   claim.folder = place_of(path);
   claim.around = folders_around(path);
   std::error_code error;
-  for (const fs::path& file : entries_of(path, error)) {
-    if (names && !names(file.filename())) continue;
-    if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
-  }
-  std::ranges::sort(claim.files);
+  std::vector<fs::path> files = entries_of(path, error);
+  std::erase_if(files, [&](const fs::path& file) { return names && !names(file.filename()); });
+  add_files(claim, files);
   claim.names = std::move(names);
   return claim;
-}
-
-void add_files(FileClaim& claim, const std::vector<fs::path>& files) {
-  for (const fs::path& file : files) {
-    if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
-  }
-  std::ranges::sort(claim.files);
 }
 
 /// Whether an output is in a folder that is read with its subfolders, or below it.

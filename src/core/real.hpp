@@ -6,8 +6,14 @@
 #include <piblocks/exact.hpp>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace piblocks {
+
+/// Of the numerator and the denominator together.
+inline std::size_t size_bits(const Rational& value) {
+  return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+}
 
 /// Frees at the end of a thread what MPFR keeps for it, constants and spare numbers, and never
 /// frees by itself (MPFR 4.2 manual, "Memory handling"). Cheap to call again.

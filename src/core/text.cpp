@@ -1,6 +1,7 @@
 #include "core/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
@@ -85,14 +86,9 @@ std::string shortened(std::string_view text) {
 }
 
 std::string with_single_blanks(std::string_view line) {
-  std::string words;
-  for (const char c : line) {
-    const bool is_blank = c == ' ';
-    if (is_blank && (words.empty() || words.back() == ' ')) continue;
-    words += c;
-  }
-  if (!words.empty() && words.back() == ' ') words.pop_back();
-  return words;
+  std::vector<std::string> words = split(line, ' ');
+  std::erase(words, "");
+  return fmt::format("{}", fmt::join(words, " "));
 }
 
 std::string counted(std::int64_t count, std::string_view what) {

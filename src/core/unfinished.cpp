@@ -16,7 +16,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "core/durability.hpp"
 #include "core/output_file.hpp"
 
 namespace piblocks {

@@ -1,15 +1,15 @@
-#include "physics/collapse.hpp"
-
 #include <piblocks/contact.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
+#include <vector>
 
-#include "physics/impact.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks {
 namespace {
@@ -22,22 +22,17 @@ constexpr std::size_t kLeastAtOnce = 1024;
 /// meets as often in a corner, and almost elastically, keeps more.
 constexpr double kMostSpeedLeft = 0x1p-16;
 
+/// The speed along the line between two with which they part.
 double parting_speed(const System& system, const StoredStep& step) {
-  return parting_speed(system, step.second, step.first_after, step.second_after);
-}
-
-/// Of three on a line that have met, the one that meets both others.
-std::uint32_t middle_of(const std::vector<std::uint32_t>& three,
-                        const std::vector<StoredStep>& steps) {
-  const auto third = *std::ranges::find_if(three, [&](std::uint32_t id) {
-    return id != steps.back().first && id != steps.back().second;
-  });
-  const auto is_of_three = [&](std::uint32_t id) { return std::ranges::count(three, id) > 0; };
-  const auto met = std::find_if(steps.rbegin(), steps.rend(), [&](const StoredStep& step) {
-    return (step.first == third && is_of_three(step.second)) ||
-           (step.second == third && is_of_three(step.first));
-  });
-  return met->first == third ? met->second : met->first;
+  const auto& [x, u] = step.first_after;
+  const auto& [y, v] = step.second_after;
+  std::array<double, 2> way = {y[0] - x[0], y[1] - x[1]};
+  if (step.second >= system.bodies.size()) {
+    const ExactVector& normal = system.walls[step.second - system.bodies.size()].normal;
+    way = {-to_double(normal[0]), -to_double(normal[1])};
+  }
+  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
+  return std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
 }
 
 /// The share of its parting speed that the last pair has kept since it met before; 1 if this is
@@ -62,13 +57,19 @@ std::optional<bool> do_three_collapse(const System& system,
   const auto mass = [&](std::uint32_t id) {
     return id < system.bodies.size() ? system.bodies[id].mass : std::nullopt;
   };
-  const std::uint32_t middle = middle_of(bodies, steps);
-  std::vector<std::uint32_t> outer = bodies;
-  std::erase(outer, middle);
+  std::vector<std::uint32_t> in_order = bodies;  // which never changes
+  std::ranges::sort(in_order, {}, [&](std::uint32_t id) {
+    const std::size_t count = system.bodies.size();
+    return id < count ? std::pair(0, system.bodies[id].position[0])
+                      : std::pair(-sgn(system.walls[id - count].normal[0]), Rational(0));
+  });
+  const std::uint32_t left = in_order[0];
+  const std::uint32_t middle = in_order[1];
+  const std::uint32_t right = in_order[2];
   const Rational kappa =
-      share_of_change(mass(middle), mass(outer[0])) * share_of_change(mass(middle), mass(outer[1]));
-  const Rational e = restitution_of(system, middle, outer[0]);
-  const Rational f = restitution_of(system, middle, outer[1]);
+      share_of_change(mass(middle), mass(left)) * share_of_change(mass(middle), mass(right));
+  const Rational e = restitution_of(system, middle, left);
+  const Rational f = restitution_of(system, middle, right);
   const Rational trace = (1 + e) * (1 + f) * kappa - e - f;
   constexpr double kRounding = 1 - 0x1p-16;
   return trace > 0 && trace * trace >= 4 * e * f &&

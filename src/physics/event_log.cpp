@@ -1,16 +1,100 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/event_simulator.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
-#include "physics/block_motion.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/logs.hpp"
 #include "physics/stepper.hpp"
 
 namespace piblocks {
+namespace {
+
+/// The public simulator with a system's bodies, and its walls after them.
+template <int Dim>
+class EventStepper final : public Stepper {
+ public:
+  explicit EventStepper(const System& system) : simulator_(particles_of(system)) {}
+
+  std::optional<SteppedCollision> step() override {
+    const auto event = simulator_.step();
+    if (!event) return std::nullopt;
+    SteppedCollision step;
+    step.time = {event->time, 0};
+    step.first = static_cast<std::uint32_t>(event->first);
+    step.second = static_cast<std::uint32_t>(event->second);
+    step.first_after = motion_of(event->first_after);
+    step.second_after = motion_of(event->second_after);
+    return step;
+  }
+  double certain_until() const override { return kForEver; }
+
+ private:
+  using Simulator = EventSimulator<double, Dim>;
+  using Particle = typename Simulator::Body;
+  using Vector = typename Particle::Vector;
+
+  static Vector rounded(const ExactVector& exact) {
+    Vector vector;
+    std::transform(exact.begin(), exact.begin() + Dim, vector.begin(),
+                   [](const Rational& x) { return to_double(x); });
+    return vector;
+  }
+  static Motion motion_of(const Particle& particle) {
+    Motion motion;
+    std::ranges::copy(particle.position, motion.position.begin());
+    std::ranges::copy(particle.velocity, motion.velocity.begin());
+    return motion;
+  }
+  static std::vector<Particle> particles_of(const System& system) {
+    std::vector<Particle> particles;
+    for (const Body& body : system.bodies) {
+      particles.push_back({.mass = body.mass ? to_double(*body.mass) : kInfiniteMass<double>,
+                           .radius = to_double(Dim == 1 ? Rational(body.size / 2) : body.size),
+                           .position = rounded(body.position),
+                           .velocity = rounded(body.velocity)});
+    }
+    for (const Wall& wall : system.walls) {
+      particles.push_back({.mass = kInfiniteMass<double>,
+                           .position = rounded(wall.point),
+                           .velocity = rounded(wall.velocity),
+                           .facing = rounded(wall.normal)});
+    }
+    return particles;
+  }
+
+  Simulator simulator_;
+};
+
+}  // namespace
+
+void require_elastic(const System& system) {
+  if (is_elastic(system)) return;
+  throw UsageError("event loop: its collisions are elastic; leave out --engine events");
+}
+
+std::unique_ptr<Stepper> make_event_stepper(const System& system) {
+  require_elastic(system);
+  // If a scene of discs does not say how contacts are taken, this engine takes them in order.
+  if (system.contacts == Contacts::at_once) {
+    throw UsageError("event loop: it takes contacts in order; leave out --engine events");
+  }
+  if (system.bodies.size() > kMaxEventBodies) {
+    throw UsageError(fmt::format(
+        "event loop: {} bodies are more than the limit of {}; leave out --engine events",
+        system.bodies.size(), kMaxEventBodies));
+  }
+  if (system.dimensions == 1) return std::make_unique<EventStepper<1>>(system);
+  return std::make_unique<EventStepper<2>>(system);
+}
+
 namespace {
 
 /// One collision as a loop meets it; velocities are those just after.
@@ -22,41 +106,17 @@ struct StoredCollision {
 };
 using StoredCollisions = std::vector<StoredCollision>;
 
-/// Records collisions, and stops an engine that finds many more than there are.
-class Recorder {
- public:
-  explicit Recorder(const ExactMotion& motion)
-      : starts_in_contact_(!motion.through_corner() &&
-                           (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0)),
-        collisions_(motion.total()),
-        limit_(2 * collisions_.get_ui() + 100) {}
-
-  void record(StoredCollision collision) {
-    if (log_.size() == limit_) {
-      throw SimulationError(fmt::format(
-          "event loop: more than {} collisions in double precision; the exact count is {}; use the "
-          "closed form (--engine unfolded)",
-          limit_, collisions_.get_str()));
-    }
-    require_finite(collision.time, collision.blue, collision.red, "event loop");
-    // Rounding must not carry a collision past time 0, nor away from it.
-    if (collision.time.hi < 0 || (starts_in_contact_ && log_.empty())) collision.time = {};
-    log_.push_back(collision);
-  }
-  StoredCollisions take() { return std::move(log_); }
-
- private:
-  bool starts_in_contact_;  // the first collision happens exactly at time 0
-  Integer collisions_;
-  std::size_t limit_;
-  StoredCollisions log_;
-};
-
-/// The article's event loop.
+/// The article's event loop. It stops if it finds many more collisions than there are.
 StoredCollisions event_loop(const TwoBlocks& blocks) {
+  const ExactMotion motion(blocks);
+  const Integer count = motion.total();
+  const std::size_t limit = 2 * count.get_ui() + 100;
+  // The first collision then happens exactly at time 0.
+  const bool starts_in_contact =
+      !motion.through_corner() && (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0);
+  StoredCollisions log;
   const System system = system_of(blocks);
   const auto stepper = make_event_stepper(system);
-  Recorder recorder{ExactMotion(blocks)};
   // Blue, red and the wall.
   std::array<BlockMotion, 3> bodies = {motion_of(blocks.blue), motion_of(blocks.red)};
   double now = 0;
@@ -65,11 +125,20 @@ StoredCollisions event_loop(const TwoBlocks& blocks) {
     now = step->time.hi;
     bodies.at(step->first) = {step->first_after.position[0], step->first_after.velocity[0]};
     bodies.at(step->second) = {step->second_after.position[0], step->second_after.velocity[0]};
+    if (log.size() == limit) {
+      throw SimulationError(fmt::format(
+          "event loop: more than {} collisions in double precision; the exact count is {}; use the "
+          "closed form (--engine unfolded)",
+          limit, count.get_str()));
+    }
+    require_finite(step->time, bodies[0], bodies[1], "event loop");
+    // Rounding must not carry a collision past time 0, nor away from it.
+    const bool is_at_start = step->time.hi < 0 || (starts_in_contact && log.empty());
     const bool is_at_wall = step->second == system.bodies.size();
-    recorder.record({step->time, is_at_wall ? CollisionKind::wall : CollisionKind::blocks,
-                     bodies[0], bodies[1]});
+    log.push_back({is_at_start ? Time{} : step->time,
+                   is_at_wall ? CollisionKind::wall : CollisionKind::blocks, bodies[0], bodies[1]});
   }
-  return recorder.take();
+  return log;
 }
 
 Time negated(const Time& time) { return {-time.hi, -time.lo}; }

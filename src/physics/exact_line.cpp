@@ -6,12 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#include "core/real.hpp"
+
 namespace piblocks {
 namespace {
-
-std::size_t bits_of(const Rational& value) {
-  return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
-}
 
 Motion motion_of(const LineElement& element) {
   return {{to_double(element.position), 0}, {to_double(element.velocity), 0}};
@@ -104,7 +102,8 @@ std::vector<LineElement> elements_of(const System& system) {
 
 SteppedCollision step_of(const Time& time, std::uint32_t left_id, const Motion& left,
                          std::uint32_t right_id, const Motion& right) {
-  SteppedCollision step{.time = time};
+  SteppedCollision step;
+  step.time = time;
   const bool is_left_first = left_id < right_id;
   std::tie(step.first, step.second) = std::minmax(left_id, right_id);
   step.first_after = is_left_first ? left : right;
@@ -115,15 +114,15 @@ SteppedCollision step_of(const Time& time, std::uint32_t left_id, const Motion& 
 ExactLine::ExactLine(const System& system)
     : elements_(elements_of(system)),
       meetings_(elements_.size() - 1),
-      next_(std::max<std::size_t>(meetings_.size(), 1), Earlier{*this}),
+      next_(meetings_.size(), Earlier{*this}),
       is_at_once_(are_at_once(system)) {
   for (std::size_t pair = 0; pair < meetings_.size(); ++pair) predict(pair);
-  if (!meetings_.empty()) next_.replay_all();
+  next_.replay_all();
 }
 
 bool ExactLine::Earlier::operator()(std::size_t a, std::size_t b) const {
   const auto& [meetings, elements] = std::tie(line.meetings_, line.elements_);
-  if (meetings.empty() || !meetings[a]) return false;
+  if (!meetings[a]) return false;
   if (!meetings[b]) return true;
   const int order = cmp(*meetings[a], *meetings[b]);
   if (order != 0) return order < 0;
@@ -152,7 +151,7 @@ std::optional<SteppedCollision> ExactLine::step() {
 bool ExactLine::meet() {
   if (meetings_.empty() || !meetings_[next_.winner()]) return false;
   take_stage();
-  bits_ = bits_of(time_);
+  bits_ = size_bits(time_);
   if (stage_.size() == 1 || !strike_at_once()) {
     put_back_all_but_first();
     collide(elements_[stage_[0]], elements_[stage_[0] + 1]);
@@ -216,7 +215,7 @@ void ExactLine::report(std::size_t pair) {
   const LineElement& left = elements_[pair];
   const LineElement& right = elements_[pair + 1];
   for (const LineElement* const element : {&left, &right}) {
-    bits_ = std::max({bits_, bits_of(element->position), bits_of(element->velocity)});
+    bits_ = std::max({bits_, size_bits(element->position), size_bits(element->velocity)});
   }
   SteppedCollision step =
       step_of(to_time(time_), left.id, motion_of(left), right.id, motion_of(right));

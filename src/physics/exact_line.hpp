@@ -7,7 +7,9 @@
 #include <piblocks/system.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "physics/stepper.hpp"
@@ -87,5 +89,13 @@ class ExactLine {
   Rational time_ = 0;
   std::size_t bits_ = 0;
 };
+
+/// From there on in double precision, with a bound of the error: up to when rounding cannot have
+/// changed the order of collisions.
+/// @param elements    as ExactLine has them just after the collision at `begin`.
+/// @param is_at_once  whether the system has contacts at once. Pairs are taken in order here, so
+///                    certainty ends where the two might differ.
+std::unique_ptr<Stepper> make_certified_line(std::span<const LineElement> elements,
+                                             const Rational& begin, bool is_at_once);
 
 }  // namespace piblocks

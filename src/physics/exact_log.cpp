@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/block_motion.hpp"
 #include "physics/exact_line.hpp"
 #include "physics/logs.hpp"
 

@@ -15,10 +15,6 @@ namespace {
 /// the precision that has not decided it. The test then takes no longer than more precision would.
 constexpr double kMaxRay_bits = 16;
 
-/// Longest power of a ray's direction, in bits, from which the time of a collision is computed
-/// exactly. Longer ones would slow down everything that is computed with that time.
-constexpr double kMaxShort_bits = 256;
-
 /// 1 + i sigma to the power n is A + i sigma B with rational A, B: the direction of ray n.
 struct RayDirection {
   Rational a = 1;
@@ -31,9 +27,7 @@ RayDirection multiply(const RayDirection& p, const RayDirection& q, const Ration
 
 /// Nothing if that may take numbers longer than max_bits.
 std::optional<RayDirection> ray_direction(const Integer& n, const Rational& r, double max_bits) {
-  const std::size_t size_bits =
-      mpz_sizeinbase(r.get_num_mpz_t(), 2) + mpz_sizeinbase(r.get_den_mpz_t(), 2);
-  if (std::fabs(n.get_d()) * double(size_bits) > max_bits) return std::nullopt;
+  if (std::fabs(n.get_d()) * double(size_bits(r)) > max_bits) return std::nullopt;
   RayDirection result;
   RayDirection square{1, n < 0 ? -1 : 1};
   for (unsigned long left = Integer(abs(n)).get_ui(); left != 0; left /= 2) {
@@ -187,7 +181,7 @@ Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) con
 }
 
 Rational ExactMotion::time_past(const Integer& ray) const {
-  if (const auto direction = ray_direction(ray, ratio, kMaxShort_bits)) {
+  if (const auto direction = ray_direction(ray, ratio, kShortTime_bits)) {
     const auto& [a, b] = *direction;
     return (b * y2 - a * mirrored(y1)) / (a * mirrored(u1) - b * u2);
   }

@@ -48,6 +48,9 @@ struct TwoSided {
   const Landmark& seen(bool from_later_rays) const { return from_later_rays ? behind : ahead; }
 };
 
+/// Longest numbers from which the time of a collision is computed exactly. Longer ones would slow
+/// down everything that is computed with that time.
+inline constexpr double kShortTime_bits = 256;
 /// Precision at which an undecided count is given up.
 inline constexpr mpfr_prec_t kMaxDecisionBits = 1 << 22;
 /// Relative precision of what the doubles of the closed form are rounded from: two doubles'.

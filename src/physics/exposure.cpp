@@ -1,28 +1,9 @@
 #include "physics/exposure.hpp"
 
-#include <cmath>
 #include <utility>
-
-#include "core/rounded.hpp"
-#include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
-
-/// From an instant and its state to a later one, from collision to collision.
-void add_flights(const PairLog& log, Time now, const Integer& count, const Rational& end,
-                 const PairState& stop, PieceList& pieces) {
-  const auto go_to = [&](const Time& time, const BlockMotion& blue, const BlockMotion& red) {
-    // The times of an event loop can be out of order by their rounding.
-    pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue.position, red.position);
-    now = time;
-  };
-  for (Integer index = count + 1; index <= stop.count; ++index) {
-    const PairCollision collision = log.blocks_collision(index);
-    go_to(collision.time, collision.blue, collision.red);
-  }
-  go_to(to_time(end), stop.blue, stop.red);
-}
 
 std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
   const double length = path.back().after;
@@ -80,78 +61,21 @@ PairExposure PieceList::exposure() {
   return exposure;
 }
 
-RayPhase UnfoldedLog::ray_phase(const Integer& ray) const {
-  const auto from = [&](const Landmark& end) {
-    const DoubleDouble steps = end.steps_from(ray);
-    return steps.hi + (steps.lo + end.beyond.hi);
-  };
-  const double past = from(form_.past);
-  const double future = from(form_.future);
-  return future < past ? RayPhase{future, true} : RayPhase{past, false};
-}
-
-/// Before all collisions, which happen at once, and after them.
-PairExposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
-  const PairState start = blocks_at(begin);
-  const PairState stop = blocks_at(end);
-  PieceList pieces(start.blue.position, start.red.position);
-  Rational now = begin;
-  if (begin < exact_.closest_approach && exact_.closest_approach < end) {
-    now = exact_.closest_approach;
-    pieces.add(to_double(now - begin), form_.blue_offset, form_.red_offset);
-  }
-  pieces.add(to_double(end - now), stop.blue.position, stop.red.position);
-  return pieces.exposure();
-}
-
-PairExposure UnfoldedLog::expose(const Rational& first, const Rational& last) const {
-  if (exact_.through_corner()) return expose_corner(first, last);
-  const LinePoint first_point = point_at(first);
-  const LinePoint last_point = point_at(last);
-  const Phase first_phase = phase_of(first_point, first);
-  const Phase last_phase = phase_of(last_point, last);
-  const PairState start = state_of(first_point, first_phase, first);
-  const PairState stop = state_of(last_point, last_phase, last);
-  const Integer first_ray = ray_of(start.count) + 1;
-  const Integer last_ray = ray_of(stop.count);
-  if (last_ray - first_ray >= Integer(long(kMaxListedCollisions))) {
-    const auto interval_end = [&](const LinePoint& point, const PairState& state,
-                                  const Integer& ray) {
-      return IntervalEnd{point.tau, state.blue.position - form_.blue_offset,
-                         state.red.position - form_.red_offset, ray_phase(ray), is_odd(ray)};
-    };
-    return expose_bounces(form_, interval_end(first_point, start, first_ray),
-                          interval_end(last_point, stop, last_ray));
-  }
-  // Durations come from triangles with the corner, so that a long turn costs no precision. This is
-  // one between a point and a ray, less than one ray apart, with the sine of the ray.
-  const auto time_to_ray = [&](const LinePoint& point, double rays, double sine) {
-    return rounded::hypot(form_.passage, point.tau) * (rounded::sin(rays * form_.theta.hi) / sine);
-  };
-  PieceList pieces(start.blue.position, start.red.position);
-  double before = 0;  // the sine of the ray before
-  for (Integer ray = first_ray; ray <= last_ray; ++ray) {
-    const double sine = view_of(ray, ray).ray.sine;
-    const double distance = form_.ell * (form_.sigma / sine);
-    const RayKind kind = form_.kind(is_odd(ray));
-    const double duration = ray == first_ray
-                                ? time_to_ray(first_point, 1 - first_phase.fraction, sine)
-                                : form_.passage / before * (form_.step.sine / sine);
-    pieces.add(duration, form_.blue_offset + kind.blue_reach * distance,
-               form_.red_offset + kind.red_reach * distance);
-    before = sine;
-  }
-  pieces.add(first_ray <= last_ray ? time_to_ray(last_point, last_phase.fraction, before)
-                                   : std::max(0.0, last_point.tau - first_point.tau),
-             stop.blue.position, stop.red.position);
-  return pieces.exposure();
-}
-
 PairExposure PairLog::expose(const Rational& from, const Rational& to) const {
   const PairState start = blocks_at(from);
   const PairState stop = blocks_at(to);
   PieceList pieces(start.blue.position, start.red.position);
-  add_flights(*this, to_time(from), start.count, to, stop, pieces);
+  Time now = to_time(from);
+  const auto go_to = [&](const Time& time, const BlockMotion& blue, const BlockMotion& red) {
+    // The times of an event loop can be out of order by their rounding.
+    pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue.position, red.position);
+    now = time;
+  };
+  for (Integer index = start.count + 1; index <= stop.count; ++index) {
+    const PairCollision collision = blocks_collision(index);
+    go_to(collision.time, collision.blue, collision.red);
+  }
+  go_to(to_time(to), stop.blue, stop.red);
   return pieces.exposure();
 }
 

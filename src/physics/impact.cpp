@@ -1,13 +1,10 @@
 #include "physics/impact.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/real.hpp"
 #include "core/two_sum.hpp"
-#include "physics/inelastic_log.hpp"
-#include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -21,23 +18,6 @@ double impulse_of(const Rational& mass_ratio, const PairCollision& collision) {
                                                                 : Rational(red - blue);
   const Rational speed_squared = mass_ratio * blue * blue + red * red;
   return sqrt(Real(kPrecision_bits, change * change / speed_squared)).to_double();
-}
-
-/// The impulse that a body of mean mass would get if it met a wall at the mean speed. Sums have
-/// more bits than are seen: those of exact fractions would grow with the number of bodies.
-double usual_impulse(const System& system) {
-  constexpr mpfr_prec_t kPrecision_bits = 256;
-  Real mass(kPrecision_bits, 0);
-  Real twice_energy(kPrecision_bits, 0);
-  unsigned long movable = 0;
-  for (const Body& body : system.bodies) {
-    if (!body.mass) continue;
-    const auto& [x, y] = body.velocity;
-    mass = mass + Real(kPrecision_bits, *body.mass);
-    twice_energy = twice_energy + Real(kPrecision_bits, *body.mass * (x * x + y * y));
-    ++movable;
-  }
-  return 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
 }
 
 /// From the velocities of the lighter one: the change of the other may be lost in rounding.
@@ -54,53 +34,7 @@ double impulse_of(const System& system, const Collision& collision) {
   return mass(is_first ? collision.first : collision.second) * change;
 }
 
-bool is_at_wall(const System& system, const Collision& collision) {
-  return is_immovable(system, collision.first) || is_immovable(system, collision.second);
-}
-
 }  // namespace
-
-double parting_speed(const System& system, std::uint32_t second, const Motion& first_after,
-                     const Motion& second_after) {
-  std::array<double, 2> way = {second_after.position[0] - first_after.position[0],
-                               second_after.position[1] - first_after.position[1]};
-  if (second >= system.bodies.size()) {
-    const ExactVector& normal = system.walls[second - system.bodies.size()].normal;
-    way = {-to_double(normal[0]), -to_double(normal[1])};
-  }
-  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
-  const auto& u = first_after.velocity;
-  const auto& v = second_after.velocity;
-  return std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
-}
-
-std::optional<Impact> UnfoldedLog::blocks_impact(CollisionKind kind, const Integer& first,
-                                                 const Integer& last) const {
-  const bool odd = kind == CollisionKind::blocks;
-  Integer from = ray_of(first);
-  Integer to = ray_of(last);
-  if (is_odd(from) != odd) ++from;
-  if (is_odd(to) != odd) --to;
-  if (from > to) return std::nullopt;
-  const RayView seen = view_of(from, to);
-  // The impulse of a collision in the middle, times sin(n theta)/sin theta (README.md, "Many
-  // collisions as one").
-  const double one = seen.ray.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
-  double number = 1;
-  if (from != to) {
-    const Integer n = (to - from) / 2 + 1;
-    number = form_.direction(to_time(Rational(n)), {}).sine / form_.step.sine;
-  }
-  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.ray.sine);
-  return Impact{kind, time(from, to, seen), one * number, form_.blue_offset + reach * form_.ell};
-}
-
-Integer UnfoldedLog::count_near(const Time& time) const {
-  LinePoint point = point_at(tau_near(time), time);
-  point.decided = true;
-  const Rational exact = exact_.through_corner() ? to_rational(time) : Rational(0);
-  return exact_.count_from_ray(phase_of(point, exact).ray);
-}
 
 std::optional<Impact> PairLog::impact(CollisionKind kind, const Integer& first,
                                       const Integer& last) const {
@@ -144,8 +78,9 @@ std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
   std::optional<Impact> sum;
   for (Integer index = first; index <= last; ++index) {
     const Collision found = collision(index);
-    if ((kind == CollisionKind::wall) != is_at_wall(system(), found)) continue;
-    const bool is_first_fixed = !system().bodies[found.first].mass;
+    const bool is_first_fixed = is_immovable(system(), found.first);
+    const bool is_at_wall = is_first_fixed || is_immovable(system(), found.second);
+    if ((kind == CollisionKind::wall) != is_at_wall) continue;
     const Motion& seen = is_first_fixed ? found.second_after : found.first_after;
     if (!sum) sum = Impact{kind, found.time, 0, seen.position[0]};
     sum->impulse += impulse_of(system(), found);
@@ -153,8 +88,21 @@ std::optional<Impact> Log::impact(CollisionKind kind, const Integer& first,
   return sum;
 }
 
+/// Sums have more bits than are seen: those of exact fractions would grow with the number of
+/// bodies.
 double Log::impulse_unit() const {
-  const double usual = usual_impulse(system());
+  constexpr mpfr_prec_t kPrecision_bits = 256;
+  Real mass(kPrecision_bits, 0);
+  Real twice_energy(kPrecision_bits, 0);
+  unsigned long movable = 0;
+  for (const Body& body : system().bodies) {
+    if (!body.mass) continue;
+    const auto& [x, y] = body.velocity;
+    mass = mass + Real(kPrecision_bits, *body.mass);
+    twice_energy = twice_energy + Real(kPrecision_bits, *body.mass * (x * x + y * y));
+    ++movable;
+  }
+  const double usual = 2 * std::sqrt((mass * twice_energy).to_double()) / double(movable);
   return usual > 0 ? usual : 1;
 }
 

@@ -22,9 +22,4 @@ struct Impact {
   double position = 0;
 };
 
-/// The speed along the line between two with which they part.
-/// @param second  as of Collision
-double parting_speed(const System& system, std::uint32_t second, const Motion& first_after,
-                     const Motion& second_after);
-
 }  // namespace piblocks

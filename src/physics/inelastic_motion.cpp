@@ -15,31 +15,17 @@ namespace {
 constexpr long kEnergyLeft_bits = 200;
 constexpr long kTimeLeft_bits = 100;
 
-/// Longest numbers from which the time of a collision is computed exactly. Longer ones would slow
-/// down everything that is computed with that time.
-constexpr double kShortTime_bits = 256;
-
 /// A term of so many bits has the right sign.
 constexpr mpfr_prec_t kSign_bits = 8;
 
 /// A time is rounded up by less than 2^-100 of the flight.
 constexpr long kTimeGrid_bits = 104;
 
-Rational trace_of(const Rational& ratio, const Rational& wall, const Rational& blocks) {
-  return (1 + wall) * (1 + blocks) / (1 + ratio) - wall - blocks;
-}
-
 /// a - b, and 0 if that is only the rounding of both, to this many bits.
 Real clean_difference(const Real& a, const Real& b, mpfr_prec_t good_bits) {
   const Real difference = a - b;
   const bool is_noise = std::max(a.exponent(), b.exponent()) - difference.exponent() > good_bits;
   return is_noise ? Real(difference.bits(), 0) : difference;
-}
-
-Integer doubled_while(const auto& holds) {
-  Integer n = 1;
-  while (holds(n)) n *= 2;
-  return n;
 }
 
 }  // namespace
@@ -51,7 +37,8 @@ InelasticMotion::InelasticMotion(const TwoBlocks& system)
       gaps{system.blue_gap(), system.blue_gap() + system.blocks_gap()},
       rates{system.blue.velocity, system.red.velocity},
       areal_velocity(gaps.second * rates.first - gaps.first * rates.second),
-      powers(trace_of(ratio, wall_restitution, blocks_restitution),
+      powers((1 + wall_restitution) * (1 + blocks_restitution) / (1 + ratio) - wall_restitution -
+                 blocks_restitution,
              wall_restitution * blocks_restitution),
       total(0),
       listed(0) {
@@ -220,7 +207,8 @@ bool InelasticMotion::is_listed(const Integer& n) const {
 }
 
 Integer InelasticMotion::find_listed() const {
-  Integer not_listed = doubled_while([this](const Integer& n) { return is_listed(n); });
+  Integer not_listed = 1;
+  while (is_listed(not_listed)) not_listed *= 2;
   Integer last = not_listed / 2;
   while (last + 1 < not_listed) {
     const Integer middle = (last + not_listed) / 2;

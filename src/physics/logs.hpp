@@ -43,6 +43,26 @@ std::vector<double> sample_times(std::size_t count);
 /// @throws UsageError if the time is negative.
 void require_not_negative(const Rational& time);
 
+inline BlockMotion motion_of(const Block& block) {
+  return {to_double(block.position), to_double(block.velocity)};
+}
+
+/// The motion at a time until which the block meets nothing, rounded once.
+inline BlockMotion motion_at(const Block& block, const Rational& time) {
+  return {to_double(block.position + block.velocity * time), to_double(block.velocity)};
+}
+
+inline BlockMotion reversed(const BlockMotion& motion) {
+  return {motion.position, -motion.velocity};
+}
+
+/// The same blocks with opposite velocities: what they do is the past of `system`, backwards.
+inline TwoBlocks reversed(TwoBlocks system) {
+  system.blue.velocity = -system.blue.velocity;
+  system.red.velocity = -system.red.velocity;
+  return system;
+}
+
 /// @param engine  named in the message.
 /// @throws SimulationError if a number is not finite.
 void require_finite(const Time& time, const BlockMotion& blue, const BlockMotion& red,
@@ -70,6 +90,15 @@ std::unique_ptr<PairLog> make_valid_pair_log(const System& system,
 /// answer is rounded once.
 /// @param system  with m_red <= m_blue, or at rest.
 std::unique_ptr<PairLog> make_exact_log(const System& system);
+
+/// The closed form of elastic blocks, of which red is the heavier one.
+/// @throws UsageError if the mass ratio is beyond 2^2000.
+/// @throws SimulationError if the blocks pass the corner closer than a double can tell.
+std::unique_ptr<PairLog> make_unfolded_log(const System& system);
+
+/// The closed form of blocks that lose energy where they collide.
+/// @throws SimulationError as RoundPowers.
+std::unique_ptr<PairLog> make_inelastic_log(const System& system);
 
 /// Engine::events, which advances positions to the next collision of any pair, in double precision.
 /// @throws UsageError if the collisions are more than kMaxStoredCollisions.

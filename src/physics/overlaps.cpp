@@ -1,5 +1,3 @@
-#include "physics/overlaps.hpp"
-
 #include <piblocks/two_blocks.hpp>
 
 #include <algorithm>
@@ -10,10 +8,11 @@
 #include <set>
 #include <vector>
 
+#include "physics/problems.hpp"
+
 namespace piblocks {
 namespace {
 
-Rational dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1]; }
 ExactVector difference(const ExactVector& a, const ExactVector& b) {
   return {a[0] - b[0], a[1] - b[1]};
 }

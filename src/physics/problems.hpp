@@ -65,6 +65,14 @@ std::string key_of(const System& system, std::size_t body, const char* value);
 /// As in "the left wall", or "the wall".
 std::string noun_of(const Wall& wall);
 
+inline Rational dot(const ExactVector& a, const ExactVector& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+/// Bodies that overlap, or are beyond a wall: by how much. Touching is allowed. It takes about
+/// n log n steps for n bodies. @param system  whose numbers are right
+void check_overlaps(const System& system, SceneProblems& problems);
+
 /// @throws SceneError that lists the problems, if there are any.
 void require_valid(const std::vector<Problem>& problems);
 

@@ -20,10 +20,6 @@ constexpr double kTermTest_bits = 16;
 
 long bits_of(const Integer& value) { return long(mpz_sizeinbase(value.get_mpz_t(), 2)); }
 
-double size_of(const Rational& value) {
-  return double(bits_of(value.get_num()) + bits_of(value.get_den()));
-}
-
 [[noreturn]] void give_up() {
   throw SimulationError(fmt::format(
       "restitution: {} bits do not decide how many collisions have happened", kMaxDecisionBits));
@@ -50,7 +46,7 @@ RoundPowers::RoundPowers(Rational trace, Rational determinant)
       determinant_(std::move(determinant)),
       discriminant_(trace_ * trace_ - 4 * determinant_),
       kind_(kind_of(trace_, determinant_, discriminant_)),
-      size_bits_(size_of(trace_) + size_of(determinant_)),
+      size_bits_(double(size_bits(trace_) + size_bits(determinant_))),
       // Rounds are about 1/w; their number, and what a term cancels, have as many bits.
       decision_bits_(96 + std::labs(Real(64, discriminant_).exponent())),
       term_bits_(224 + 2 * (decision_bits_ - 96)),

@@ -9,8 +9,6 @@
 #include <utility>
 
 #include "core/stop.hpp"
-#include "physics/block_motion.hpp"
-#include "physics/collapse.hpp"
 #include "physics/logs.hpp"
 #include "physics/stepper.hpp"
 
@@ -299,10 +297,10 @@ class SteppedLog final : public Log {
     for (const std::uint32_t body : {step->first, step->second}) {
       if (body < of_body_.size()) of_body_[body].push_back(number);
     }
-    const bool is_wall = step->second >= of_body_.size();
-    steps_.push_back({step->time, step->first, step->second, step->first_after,
-                      is_wall ? moved(motion_at_start(system(), step->second), step->time.hi)
-                              : step->second_after});
+    steps_.push_back(*step);
+    if (step->second >= of_body_.size()) {
+      steps_.back().second_after = moved(motion_at_start(system(), step->second), step->time.hi);
+    }
     if (!is_elastic_) find_collapse();
   }
 
@@ -333,17 +331,11 @@ class SteppedLog final : public Log {
 
   /// The steps up to this time, which have been computed.
   std::size_t steps_until(const Rational& time) const {
-    std::size_t low = 0;
-    std::size_t high = steps_.size();
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (time_of(middle) <= time) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return low;
+    const auto has_happened = [&](const StoredStep& step) {
+      return time_of(static_cast<std::size_t>(&step - steps_.data())) <= time;
+    };
+    const auto next = std::ranges::partition_point(steps_, has_happened);
+    return static_cast<std::size_t>(next - steps_.begin());
   }
 
   Rational time_of(std::size_t step) const {

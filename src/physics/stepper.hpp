@@ -1,6 +1,6 @@
 // What steps bodies from collision to collision.
-// In: a System without problems. Out: its collisions one after the other, and up to when they
-// are certain to be the true ones.
+// In: a System without problems. Out: its collisions one after the other, up to when they are
+// certain to be the true ones, and whether they end in a collapse.
 #pragma once
 
 #include <piblocks/log.hpp>
@@ -12,16 +12,19 @@
 
 namespace piblocks {
 
-/// One collision; motions are those just after it.
-struct SteppedCollision {
+/// What is stored of a collision; motions are those just after it.
+struct StoredStep {
   Time time;
-  std::optional<Rational> exact_time = {};  ///< if the engine knows it
-  /// Whether one of the two has another collision at this time; false if not known.
-  bool is_tied = false;
   std::uint32_t first = 0;  ///< as in Collision
   std::uint32_t second = 0;
   Motion first_after = {};
   Motion second_after = {};
+};
+
+struct SteppedCollision : StoredStep {
+  std::optional<Rational> exact_time = {};  ///< if the engine knows it
+  /// Whether one of the two has another collision at this time; false if not known.
+  bool is_tied = false;
 };
 
 inline constexpr double kForEver = std::numeric_limits<double>::infinity();
@@ -57,5 +60,29 @@ std::unique_ptr<Stepper> make_line_stepper(const System& system);
 std::unique_ptr<Stepper> make_event_stepper(const System& system);
 /// @throws UsageError if Engine::events cannot step this because it loses energy.
 void require_elastic(const System& system);
+
+/// Numbers of steps, ascending.
+using StepNumbers = std::vector<std::uint32_t>;
+
+inline double flight(const Time& from, const Time& to) {
+  return (to.hi - from.hi) + (to.lo - from.lo);
+}
+
+/// The share of all time in which bodies that collapse have met very often.
+inline constexpr double kCollapseWindow = 0x1p-48;
+
+/// What cannot be stepped on.
+struct EndOfSteps {
+  std::vector<std::uint32_t> bodies;  ///< as Collapse::bodies
+  bool is_collapse = true;            ///< false where doubles cannot tell whether it is one
+};
+
+/// The end that the last step is (README.md, "Collapse"); nothing if the run goes on.
+/// @param of_body   the numbers of each body's steps
+/// @param window    the time in which its bodies have met very often
+/// @param is_exact  whether the last step was in rational numbers
+std::optional<EndOfSteps> end_of_steps(const System& system, const std::vector<StoredStep>& steps,
+                                       const std::vector<StepNumbers>& of_body, double window,
+                                       bool is_exact);
 
 }  // namespace piblocks

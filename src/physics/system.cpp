@@ -6,13 +6,12 @@
 #include <optional>
 
 #include "physics/exact_line.hpp"
-#include "physics/overlaps.hpp"
 #include "physics/problems.hpp"
 
 namespace piblocks {
 namespace {
 
-Rational dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1]; }
+Rational larger_of(const ExactVector& vector) { return std::max(abs(vector[0]), abs(vector[1])); }
 
 /// Collects what is wrong with each body alone. In closed form masses may be of any size.
 void check_body(const System& system, std::size_t index, bool is_pair, SceneProblems& problems) {
@@ -25,11 +24,8 @@ void check_body(const System& system, std::size_t index, bool is_pair, SceneProb
   }
   problems.require_positive(key(size), body.size);
   problems.require_finite(key(size), body.size);
-  const auto larger = [](const ExactVector& vector) {
-    return std::max(abs(vector[0]), abs(vector[1]));
-  };
-  problems.require_finite(key("position"), larger(body.position));
-  problems.require_finite(key("velocity"), larger(body.velocity));
+  problems.require_finite(key("position"), larger_of(body.position));
+  problems.require_finite(key("velocity"), larger_of(body.velocity));
 }
 
 void check_dimensions(const System& system, SceneProblems& problems) {
@@ -43,11 +39,10 @@ void check_dimensions(const System& system, SceneProblems& problems) {
   }
   for (std::size_t i = 0; i < system.walls.size(); ++i) {
     const Wall& wall = system.walls[i];
-    problems.require_finite(fmt::format("wall {}.velocity", i + 1),
-                            std::max(abs(wall.velocity[0]), abs(wall.velocity[1])));
+    problems.require_finite(fmt::format("wall {}.velocity", i + 1), larger_of(wall.velocity));
     const bool is_short = has_short_names(system);
     problems.require_finite(is_short ? "wall.face" : fmt::format("wall {}.point", i + 1),
-                            std::max(abs(wall.point[0]), abs(wall.point[1])));
+                            larger_of(wall.point));
     const std::string key = fmt::format("wall {}.normal", i + 1);
     if (wall.normal[0] == 0 && wall.normal[1] == 0) {
       problems.add(key, "= [0, 0]: must not be 0");
@@ -100,6 +95,10 @@ std::string key_of(const System& system, std::size_t body, const char* value) {
 }
 std::string noun_of(const Wall& wall) {
   return wall.name == "wall" ? wall.name : wall.name + " wall";
+}
+
+void require_valid(const std::vector<Problem>& problems) {
+  if (!problems.empty()) throw SceneError(problems);
 }
 
 std::vector<Problem> problems_of(const System& system) {

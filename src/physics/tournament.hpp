@@ -19,7 +19,7 @@ class Tournament {
     replay_all();
   }
 
-  /// The least entry. There must be one.
+  /// The least entry, if there is one.
   std::size_t winner() const { return winners_[1]; }
 
   /// To be called after the entry has changed.

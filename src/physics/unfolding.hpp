@@ -169,4 +169,24 @@ struct RaySpan {
 std::unique_ptr<PairStream> make_unfolded_stream(const Unfolding& form, const RaySpan& rays,
                                                  const std::optional<Integer>& contact);
 
+/// A ray, or a direction between rays, by its distance from the nearer end of time, in rays.
+struct RayPhase {
+  double phase = 0;
+  bool late = false;  ///< whether the nearer end is the future
+};
+
+/// One end of an interval, and the ray inside of the interval that is crossed next to it.
+struct IntervalEnd {
+  double tau = 0;       ///< scaled time since closest approach
+  double blue_gap = 0;  ///< y1
+  double red_gap = 0;   ///< y2
+  RayPhase ray;
+  bool ray_is_odd = false;
+};
+
+/// The exposure of an interval with many rays, in closed form. Its integrals cost some hundred
+/// sines each. Formulas: README.md, "Exposure".
+PairExposure expose_bounces(const ClosedForm& form, const IntervalEnd& begin,
+                            const IntervalEnd& end);
+
 }  // namespace piblocks

@@ -17,13 +17,10 @@ constexpr double kVolume = 0.42;
 /// Left and right differ by at most 3 dB.
 constexpr double kWidest = 0.107;
 
-/// How much later a voice begins than its first whole sample of the film.
-Rational to_first_sample_s(const Voice& voice, int rate_hz) {
-  return voice.begin_s - Rational(to_integer(RunSound::first_sample(voice, rate_hz))) / rate_hz;
-}
-
 ClackStream stream_of(const Voice& voice, int rate_hz) {
-  const Rational later_s = to_first_sample_s(voice, rate_hz);
+  // Than its first whole sample of the film.
+  const Rational later_s =
+      voice.begin_s - Rational(to_integer(RunSound::first_sample(voice, rate_hz))) / rate_hz;
   std::vector<Stretch> stretches = voice.stretches;
   for (Stretch& stretch : stretches) stretch.video_s += later_s;
   return {voice.log, stretches, voice.end_s - voice.begin_s + later_s, rate_hz};

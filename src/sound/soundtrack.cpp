@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/rounded.hpp"
-#include "sound/click.hpp"
 
 namespace piblocks {
 namespace {
@@ -27,9 +27,12 @@ constexpr double kAsGoodAsOne = 1 - 1e-5;
 /// -2.5 dB: lossy encoders add up to 0.4 dB to the peaks.
 constexpr double kCeiling = 0.75;
 
-std::int64_t to_nearest(const Rational& value) {
-  return floor(Rational(value + Rational(1, 2))).get_si();
-}
+/// Weighted energy of 0.4 s at -16.5 LUFS: 10^((-16.5 + 0.691)/10) in a pair.
+constexpr double kMostEnergy = 0.02625 * 19200;
+
+/// A hop with less energy counts as silence and resets the filters: tiny numbers would slow
+/// processors down.
+constexpr double kSilence = 1e-20;
 
 void check(std::span<const Stretch> stretches) {
   const bool is_in_order = std::ranges::is_sorted(stretches, {}, &Stretch::video_s);
@@ -38,6 +41,46 @@ void check(std::span<const Stretch> stretches) {
 }
 
 }  // namespace
+
+/// ITU-R BS.1770-4, table 1.
+double Leveller::Weighting::next(double x) {
+  const double y = 1.53512485958697 * x - 2.69169618940638 * x1 + 1.19839281085285 * x2 +
+                   1.69065929318241 * y1 - 0.73248077421585 * y2;
+  x2 = x1;
+  x1 = x;
+  y2 = y1;
+  y1 = y;
+  return y;
+}
+
+/// Takes the hop that just ended in, and lets the next one out.
+void Leveller::end_hop() {
+  if (energy_ < kSilence) weighted_ = {};
+  hops_[oldest_] = energy_;
+  windows_[oldest_] = std::accumulate(hops_.begin(), hops_.end(), 0.0);
+  oldest_ = (oldest_ + 1) % kWindow;
+  energy_ = 0;
+  // All these windows contain the hop of which both neighbours are known now.
+  const double most = std::ranges::max(windows_);
+  const double hop_gain = most > kMostEnergy ? std::sqrt(kMostEnergy / most) : 1;
+  from_ = to_;
+  to_ = std::min(hop_gain_, hop_gain);
+  hop_gain_ = hop_gain;
+}
+
+StereoSample Leveller::next(const StereoSample& pair) {
+  const double part = double(place_ % kHop) / kHop;
+  const double gain = from_ + part * (to_ - from_);
+  const StereoSample out{gain * pairs_[place_][0], gain * pairs_[place_][1]};
+  pairs_[place_] = pair;
+  for (std::size_t channel = 0; channel < 2; ++channel) {
+    const double weighted = weighted_[channel].next(pair[channel]);
+    energy_ += weighted * weighted;
+  }
+  if (++place_ % kHop == 0) end_hop();
+  if (place_ == pairs_.size()) place_ = 0;
+  return out;
+}
 
 Limiter::Limiter(double ceiling, double rate_hz)
     : ceiling_(ceiling), recovery_(1 - rounded::exp(-1 / (kRecovery_s * rate_hz))) {
@@ -99,7 +142,7 @@ StereoSample Limiter::next(const StereoSample& pair) {
 
 Soundtrack::Soundtrack(std::vector<Voice> voices, const Rational& duration_s)
     : duration_s_(duration_s),
-      size_(to_nearest(duration_s * kRate_hz)),
+      size_(floor(Rational(duration_s * kRate_hz + Rational(1, 2))).get_si()),
       voices_(std::move(voices)),
       limiter_(kCeiling, kRate_hz) {
   for (const Voice& voice : voices_) check(voice.stretches);

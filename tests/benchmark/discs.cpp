@@ -11,7 +11,7 @@
 #include "accuracy/deadline.hpp"
 #include "disc_gas.hpp"
 #include "median.hpp"
-#include "physics/discs/disc_stepper.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks::benchmark {
 namespace {

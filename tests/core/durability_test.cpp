@@ -1,6 +1,4 @@
 // Syncing and opening folders, by the calls of this build's system.
-#include "core/durability.hpp"
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/descriptor.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/discs/disc_stepper.hpp"
+#include "physics/stepper.hpp"
 #include "support/random_discs.hpp"
 #include "support/traced_random.hpp"
 

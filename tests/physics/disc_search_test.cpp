@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "physics/discs/disc_stepper.hpp"
+#include "physics/discs/stepper.hpp"
 #include "support/random_discs.hpp"
 #include "support/traced_random.hpp"
 
@@ -15,11 +15,11 @@ namespace {
 
 /// To the last bit.
 void expect_same_steps(const System& system, int number) {
-  const auto fast = make_disc_stepper(system, discs::Search::cells);
-  const auto plain = make_disc_stepper(system, discs::Search::all_pairs);
+  discs::Stepper fast(system);
+  discs::Stepper plain(system, discs::Search::all_pairs);
   for (int k = 0; k < number; ++k) {
-    const auto a = fast->step();
-    const auto b = plain->step();
+    const auto a = fast.step();
+    const auto b = plain.step();
     ASSERT_EQ(a.has_value(), b.has_value()) << "collision " << k;
     if (!a) return;
     ASSERT_EQ(a->time, b->time) << "collision " << k;

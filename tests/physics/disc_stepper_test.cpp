@@ -1,5 +1,3 @@
-#include "physics/discs/disc_stepper.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/stepper.hpp"
 #include "support/random_discs.hpp"
 #include "support/traced_random.hpp"
 

@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 
-#include "physics/certified_line.hpp"
 #include "physics/exact_line.hpp"
 #include "physics/exact_walk.hpp"
 #include "physics/stepper.hpp"
@@ -188,14 +187,14 @@ double certain_steps_of(std::int64_t count, std::uint64_t seed, const Draw& draw
     Random random(seed + i);
     const System system = draw(random);
     ExactWalk walk(system);
-    CertifiedLine line(elements_of(system), 0, are_at_once(system));
+    const auto line = make_certified_line(elements_of(system), 0, are_at_once(system));
     Partners expected;
     Partners found;
     for (int k = 0; k < kMostSteps; ++k) {
       if (const auto collision = walk.next()) {
         add(expected, collision->first, collision->second, to_double(collision->time));
       }
-      const auto step = line.step();
+      const auto step = line->step();
       if (step && is_jam(system, *step)) break;
       if (step) add(found, step->first, step->second, step->time.hi);
     }
@@ -205,7 +204,7 @@ double certain_steps_of(std::int64_t count, std::uint64_t seed, const Draw& draw
       if (!collision) break;
       add(expected, collision->first, collision->second, to_double(collision->time));
     }
-    const double until = line.certain_until();
+    const double until = line->certain_until();
     if (until < kForEver) ++uncertain;
     for (const auto& [body, meetings] : found) {
       for (std::size_t k = 0; k < meetings.size(); ++k) {

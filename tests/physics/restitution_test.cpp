@@ -4,7 +4,7 @@
 #include <piblocks/two_blocks.hpp>
 
 #include "physics/exposure.hpp"
-#include "physics/inelastic_log.hpp"
+#include "physics/logs.hpp"
 #include "support/inelastic_checks.hpp"
 #include "support/traced_random.hpp"
 
@@ -122,7 +122,7 @@ TEST(Restitution, OfOneIsTheClosedForm) {
     TwoBlocks system = random_inelastic_system(random);
     system.blocks_restitution = system.wall_restitution = 1;
     SCOPED_TRACE(describe_inelastic(system));
-    expect_like_elastic(system, InelasticLog(system_of(system)), 1e-13, random);
+    expect_like_elastic(system, *make_inelastic_log(system_of(system)), 1e-13, random);
   }
 }
 

@@ -1,5 +1,6 @@
 // The order of collisions at one instant: the same for every way to write the same bodies.
 #include <gtest/gtest.h>
+#include <piblocks/log.hpp>
 #include <piblocks/system.hpp>
 
 #include <algorithm>

@@ -1,10 +1,10 @@
-#include "sound/leveller.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "sound/soundtrack.hpp"
 
 namespace piblocks {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "physics/discs/disc_stepper.hpp"
+#include "physics/discs/stepper.hpp"
 #include "support/precise_discs.hpp"
 
 namespace piblocks {
@@ -40,7 +40,7 @@ double distance(const std::array<double, 2>& computed, const std::array<Real, 2>
 class Comparison {
  public:
   Comparison(const System& system, std::size_t limit)
-      : system_(system), engine_(make_disc_stepper(system, discs::Search::cells)), truth_(system) {
+      : system_(system), engine_(system), truth_(system) {
     take_certain_steps(limit);
   }
 
@@ -65,16 +65,16 @@ class Comparison {
     while (steps_.size() < limit) {
       const std::optional<SteppedCollision> step = next_step();
       if (!step) {
-        check_.is_complete = engine_->certain_until() == kForEver && !is_out_of_range_;
+        check_.is_complete = engine_.certain_until() == kForEver && !is_out_of_range_;
         break;
       }
       const bool is_pair = step->second < system_.bodies.size();
-      if (engine_->certain_until() != kForEver) break;
+      if (engine_.certain_until() != kForEver) break;
       steps_.push_back({*step,
-                        {engine_->bound_of(step->first),
-                         is_pair ? engine_->bound_of(step->second) : discs::Bound{}}});
+                        {engine_.bound_of(step->first),
+                         is_pair ? engine_.bound_of(step->second) : discs::Bound{}}});
     }
-    until_ = engine_->certain_until();
+    until_ = engine_.certain_until();
     // The last ones may lack what happens at the same time.
     const double last = steps_.size() < limit ? until_ : steps_.back().step.time.hi * (1 - 0x1p-30);
     std::erase_if(steps_, [&](const BoundedStep& s) { return s.step.time.hi >= last; });
@@ -100,7 +100,7 @@ class Comparison {
   /// Between walls that close in, speeds leave the range of a double some day.
   std::optional<SteppedCollision> next_step() {
     try {
-      return engine_->step();
+      return engine_.step();
     } catch (const SimulationError&) {
       is_out_of_range_ = true;
       return std::nullopt;
@@ -215,7 +215,7 @@ class Comparison {
   void complain(const std::string& what) { check_.wrong.push_back(what); }
 
   const System& system_;
-  std::unique_ptr<DiscStepper> engine_;
+  discs::Stepper engine_;
   PreciseDiscs truth_;
   double until_ = kForEver;
   bool is_out_of_range_ = false;

@@ -11,12 +11,8 @@ namespace {
 /// A matrix is inverted in the cube of this number of steps.
 constexpr std::size_t kMostAtOnce = 100;
 
-bool is_movable(const DiscSystem& system, std::uint32_t body) {
-  return body < system.discs.size() && system.is_movable(body);
-}
-
 double inverse_mass(const DiscSystem& system, std::uint32_t body) {
-  return is_movable(system, body) ? 1 / system.masses[body] : 0;
+  return system.is_movable(body) ? 1 / system.masses[body] : 0;
 }
 
 /// Of the second from the first; of a wall only along its normal.
@@ -54,15 +50,6 @@ double coupling(const DiscSystem& system, const Touch& one, const Touch& other) 
   return sum * dot(one.normal, other.normal);
 }
 
-std::vector<double> matrix_of(const DiscSystem& system, const std::vector<Touch>& touches) {
-  std::vector<double> matrix;
-  matrix.reserve(touches.size() * touches.size());
-  for (const Touch& one : touches) {
-    for (const Touch& other : touches) matrix.push_back(coupling(system, one, other));
-  }
-  return matrix;
-}
-
 /// Without pivoting, which symmetric positive definite matrices do not need. Nothing if the matrix
 /// is nearly singular.
 std::optional<std::vector<double>> inverse_of(std::vector<double> matrix, std::size_t size) {
@@ -86,7 +73,10 @@ std::optional<std::vector<double>> inverse_of(std::vector<double> matrix, std::s
 /// Fills in the impulses. @return whether they are determined
 bool solve(const DiscSystem& system, Stage& stage) {
   const std::size_t size = stage.touches.size();
-  stage.matrix = matrix_of(system, stage.touches);
+  stage.matrix.clear();
+  for (const Touch& one : stage.touches) {
+    for (const Touch& other : stage.touches) stage.matrix.push_back(coupling(system, one, other));
+  }
   const auto inverse = inverse_of(stage.matrix, size);
   if (!inverse) return false;
   stage.trace = stage.inverse_trace = 0;
@@ -116,22 +106,30 @@ bool drop_pulling(Stage& stage) {
   return true;
 }
 
-/// Whether all have one coefficient, or do not influence each other.
-bool is_contraction(const Stage& stage) {
+/// Whether this is true of the numbers of some two touches.
+template <typename IsTrue>
+bool any_pair(const Stage& stage, const IsTrue& is_true) {
   for (std::size_t i = 0; i < stage.touches.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const bool is_same = stage.touches[i].restitution == stage.touches[j].restitution;
-      if (!is_same && !stage.are_independent(i, j)) return false;
+      if (is_true(i, j)) return true;
     }
   }
-  return true;
+  return false;
+}
+
+/// Whether all have one coefficient, or do not influence each other.
+bool is_contraction(const Stage& stage) {
+  return !any_pair(stage, [&](std::size_t i, std::size_t j) {
+    return stage.touches[i].restitution != stage.touches[j].restitution &&
+           stage.influence(i, j) != 0;
+  });
 }
 
 std::vector<std::uint32_t> moved_bodies(const DiscSystem& system, const Stage& stage) {
   std::vector<std::uint32_t> bodies;
   for (const Touch& touch : stage.touches) {
     for (const std::uint32_t body : {touch.first, touch.second}) {
-      if (is_movable(system, body)) bodies.push_back(body);
+      if (system.is_movable(body)) bodies.push_back(body);
     }
   }
   std::ranges::sort(bodies);
@@ -178,18 +176,10 @@ struct StageErrors {
 
 }  // namespace
 
-bool Stage::are_independent(std::size_t one, std::size_t other) const {
-  return matrix[one * touches.size() + other] == 0;
-}
-
 bool Stage::is_tied() const {
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const double own = matrix[i * touches.size() + i];
-      if (std::abs(matrix[i * touches.size() + j]) > 0x1p-30 * own) return true;
-    }
-  }
-  return false;
+  return any_pair(*this, [&](std::size_t i, std::size_t j) {
+    return std::abs(influence(i, j)) > 0x1p-30 * influence(i, i);
+  });
 }
 
 double closing_speed(const DiscSystem& system, const Touch& touch) {
@@ -215,7 +205,7 @@ std::optional<Stage> stage_of(const DiscSystem& system, const std::vector<Touch>
 bool are_decided(const DiscSystem& system, const std::vector<Touch>& touches, double least_speed) {
   return std::ranges::all_of(touches, [&](const Touch& touch) {
     double error = given_error(system, touch) + system.bounds[touch.first].velocity;
-    if (is_movable(system, touch.second)) error += system.bounds[touch.second].velocity;
+    if (system.is_movable(touch.second)) error += system.bounds[touch.second].velocity;
     const double beyond = std::abs(closing_speed(system, touch) - least_speed);
     return beyond > error * kUp + 0x1p-10 * least_speed;
   });
@@ -248,7 +238,7 @@ bool widen(DiscSystem& system, const Stage& stage) {
 
 void apply(DiscSystem& system, const Touch& touch, double impulse) {
   for (const std::uint32_t body : {touch.first, touch.second}) {
-    if (!is_movable(system, body)) continue;
+    if (!system.is_movable(body)) continue;
     const double change = impulse / system.masses[body];
     Vector& velocity = system.discs[body].velocity;
     velocity = velocity + (body == touch.first ? -change : change) * touch.normal;

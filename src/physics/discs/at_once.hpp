@@ -34,7 +34,9 @@ struct Stage {
   double inverse_trace = 0;           ///< of its inverse
   bool has_dropped = false;           ///< whether some would have pulled, and were left out
 
-  bool are_independent(std::size_t one, std::size_t other) const;
+  double influence(std::size_t one, std::size_t other) const {
+    return matrix[one * touches.size() + other];
+  }
   /// Whether an order would matter.
   bool is_tied() const;
 };

@@ -22,6 +22,14 @@ double speed_error(const WallLine& wall) {
   return wall.speed_error + 4 * kUnit * std::abs(wall.speed);
 }
 
+/// An error of a disc's place, and those of a gap that have to do with the wall.
+double with_wall_error(double error, const Disc& disc, const WallLine& wall, double time) {
+  const double place = size_of(position_at(disc, time));
+  return (error + place * wall.normal_error + wall.offset_error +
+          8 * kUnit * (place + std::abs(wall.offset) + disc.radius) + place_error(wall, time)) *
+         kUp;
+}
+
 /// At least |w|, even if its square underflows.
 double speed_above(Vector w) { return length(w) * kUp + 0x1p-440; }
 
@@ -33,31 +41,35 @@ struct Sight {
   double e;         ///< |D - d|, the radii's errors and the rounding of |d| - R, at most
   double b;         ///< |W - w|, at most
 
-  Sight(const Disc& a, const Bound& bound_a, const Disc& b_disc, const Bound& bound_b)
-      : seen(a, b_disc),
+  Sight(const Flight& one, const Flight& other)
+      : seen(one.disc, other.disc),
         distance(length(seen.distance)),
         speed(speed_above(seen.velocity)),
-        e((drift(a, bound_a, seen.start) + drift(b_disc, bound_b, seen.start) +
+        e((drift(one, seen.start) + drift(other, seen.start) +
            8 * kUnit * (distance + seen.reach)) *
           kUp),
-        b((bound_a.velocity + bound_b.velocity + 2 * kUnit * speed) * kUp) {
+        b((one.bound.velocity + other.bound.velocity + 2 * kUnit * speed) * kUp) {
     // Equal velocities are subtracted without rounding.
     if (seen.velocity.x == 0 && seen.velocity.y == 0) {
-      b = (bound_a.velocity + bound_b.velocity) * kUp;
+      b = (one.bound.velocity + other.bound.velocity) * kUp;
     }
   }
 };
 
+/// start - time_error, rounded down: less than start, if only by rounding, unless both are 0.
+double time_before(double start, double time_error) {
+  return start - time_error * kUp - 2 * kUnit * start;
+}
+
 /// Whether the flights before and after each other's last meeting cannot be confused.
-bool are_in_order(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b) {
-  const auto ends_before = [](const Disc& first, double first_time_error, const Disc& second,
-                              double second_time_error) {
-    const double end = first.time + first_time_error * kUp + 2 * kUnit * first.time;
-    const double begin = second.time - second_time_error * kUp - 2 * kUnit * second.time;
-    return (first.time == 0 && first_time_error == 0) || end <= begin;
+bool are_in_order(const Flight& a, const Flight& b) {
+  const auto ends_before = [](const Flight& first, const Flight& second) {
+    const double time = first.disc.time;
+    const double error = first.bound.time_error;
+    return (time == 0 && error == 0) || time + error * kUp + 2 * kUnit * time <=
+                                            time_before(second.disc.time, second.bound.time_error);
   };
-  return ends_before(a, bound_a.time_error, b, bound_b.time_error) ||
-         ends_before(b, bound_b.time_error, a, bound_a.time_error);
+  return ends_before(a, b) || ends_before(b, a);
 }
 
 /// Whether D.W > 0 since the flights began: the discs were apart then and move away.
@@ -92,11 +104,6 @@ double earliest_approach(const Sight& sight, double reach) {
          (approach + std::sqrt(chord2) + rounding) * kDown;
 }
 
-/// start - time_error, rounded down: less than start, if only by rounding, unless both are 0.
-double time_before(double start, double time_error) {
-  return start - time_error * kUp - 2 * kUnit * start;
-}
-
 /// start + wait, rounded down
 double time_after(double start, double wait) {
   const double time = start + wait;
@@ -109,20 +116,16 @@ struct Approach {
   double fastest;  ///< the closing speed, at most
   double gap;      ///< at the last meeting, at least
 
-  Approach(const Disc& disc, const Bound& bound, const WallLine& wall) {
-    const Vector p = disc.position;
+  Approach(const Flight& flight, const WallLine& wall) {
+    const auto& [disc, bound] = flight;
     const Vector v = disc.velocity;
-    const double e = (bound.position + size_of(p) * wall.normal_error + wall.offset_error +
-                      8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius) +
-                      place_error(wall, disc.time)) *
-                     kUp;
     // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
     const double rounding =
         4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
     b = (bound.velocity + size_of(v) * wall.normal_error + rounding + speed_error(wall)) * kUp;
     const double closing = closing_speed(wall, disc);
     fastest = b + closing;
-    gap = gap_to(wall, disc, disc.time) - e;
+    gap = gap_to(wall, disc, disc.time) - gap_error(flight, wall, disc.time);
   }
 
   bool never_meets() const { return fastest < 0 || (fastest == 0 && b == 0); }
@@ -135,37 +138,33 @@ struct Approach {
 
 }  // namespace
 
-double drift(const Disc& disc, const Bound& bound, double time) {
-  const double flight = std::abs(time - disc.time);
-  if (flight == 0) return bound.position;
+double drift(const Flight& flight, double time) {
+  const auto& [disc, bound] = flight;
+  const double duration = std::abs(time - disc.time);
+  if (duration == 0) return bound.position;
   const Vector there = position_at(disc, time);
-  const double rounding = 4 * kUnit * (size_of(there) + size_of(disc.velocity) * flight);
-  return (bound.position + bound.velocity * flight + rounding) * kUp + kTiny;
+  const double rounding = 4 * kUnit * (size_of(there) + size_of(disc.velocity) * duration);
+  return (bound.position + bound.velocity * duration + rounding) * kUp + kTiny;
 }
 
-double gap_error(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
-                 double time) {
-  const double distance = length(position_at(b, time) - position_at(a, time));
-  return (drift(a, bound_a, time) + drift(b, bound_b, time) +
-          8 * kUnit * (distance + a.radius + b.radius)) *
+double gap_error(const Flight& a, const Flight& b, double time) {
+  const double distance = length(position_at(b.disc, time) - position_at(a.disc, time));
+  return (drift(a, time) + drift(b, time) +
+          8 * kUnit * (distance + a.disc.radius + b.disc.radius)) *
          kUp;
 }
 
-double gap_error(const Disc& disc, const Bound& bound, const WallLine& wall, double time) {
-  const double place = size_of(position_at(disc, time));
-  return (drift(disc, bound, time) + place * wall.normal_error + wall.offset_error +
-          place_error(wall, time) + 8 * kUnit * (place + std::abs(wall.offset) + disc.radius)) *
-         kUp;
+double gap_error(const Flight& flight, const WallLine& wall, double time) {
+  return with_wall_error(drift(flight, time), flight.disc, wall, time);
 }
 
-double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
-                        double top_speed, bool is_one_event) {
-  const Sight sight(a, bound_a, b, bound_b);
+double earliest_meeting(const Flight& a, const Flight& b, double top_speed, bool is_one_event) {
+  const Sight sight(a, b);
   const Vector w = sight.seen.velocity;
-  const double time_error = bound_a.time_error + bound_b.time_error;
+  const double time_error = a.bound.time_error + b.bound.time_error;
   // Exactly at rest to each other.
   if (w.x == 0 && w.y == 0 && sight.b == 0 && time_error == 0) return kNever;
-  const bool is_ordered = is_one_event || are_in_order(a, bound_a, b, bound_b);
+  const bool is_ordered = is_one_event || are_in_order(a, b);
   if (is_ordered && surely_recede(sight, time_error)) return kNever;
   const double reach = sight.seen.reach + sight.e;
   const double gap = sight.distance - reach;
@@ -176,9 +175,9 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
   return time_after(sight.seen.start, earliest_approach(sight, reach));
 }
 
-double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
-                        double top_speed) {
-  const Approach approach(disc, bound, wall);
+double earliest_meeting(const Flight& flight, const WallLine& wall, double top_speed) {
+  const auto& [disc, bound] = flight;
+  const Approach approach(flight, wall);
   if (approach.never_meets()) return kNever;
   if (!(approach.gap > 8 * top_speed * bound.time_error)) {
     return time_before(disc.time, bound.time_error);
@@ -186,27 +185,27 @@ double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wa
   return approach.time_from(disc.time);
 }
 
-double earliest_meeting_aside(const Disc& disc, const Bound& bound, const WallLine& wall) {
-  const Approach approach(disc, bound, wall);
+double earliest_meeting_aside(const Flight& flight, const WallLine& wall) {
+  const auto& [disc, bound] = flight;
+  const Approach approach(flight, wall);
   if (approach.never_meets()) return kNever;
   // What came before the last meeting was ordered when it was planned.
   return std::max(approach.time_from(disc.time), time_before(disc.time, bound.time_error));
 }
 
-std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a, const Disc& b,
-                                             const Bound& bound_b, double time) {
-  const Vector d = position_at(b, time) - position_at(a, time);
-  const Vector w = b.velocity - a.velocity;
+std::optional<MeetingError> error_of_meeting(const Flight& a, const Flight& b, double time) {
+  const Vector d = position_at(b.disc, time) - position_at(a.disc, time);
+  const Vector w = b.disc.velocity - a.disc.velocity;
   const double distance = length(d);
-  const double reach = a.radius + b.radius;
+  const double reach = a.disc.radius + b.disc.radius;
   const double speed = speed_above(w);
   MeetingError meeting;
-  meeting.drift_a = drift(a, bound_a, time);
-  meeting.drift_b = drift(b, bound_b, time);
+  meeting.drift_a = drift(a, time);
+  meeting.drift_b = drift(b, time);
   meeting.speed = speed;
   const double e = (meeting.drift_a + meeting.drift_b + 2 * kUnit * distance) * kUp;
   const double gap = (std::abs(distance - reach) + 8 * kUnit * (distance + reach)) * kUp;
-  const double velocity_error = (bound_a.velocity + bound_b.velocity + 2 * kUnit * speed) * kUp;
+  const double velocity_error = (a.bound.velocity + b.bound.velocity + 2 * kUnit * speed) * kUp;
   const double surely = -dot(w, d) / distance - 8 * kUnit * speed - velocity_error;
   if (!(surely > 0)) return std::nullopt;
   const double root2 = surely * surely - 2 * (e + gap) * speed * speed / distance * kUp;
@@ -221,18 +220,14 @@ std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a
   return meeting;
 }
 
-std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& bound,
-                                             const WallLine& wall, double time) {
-  const Vector there = position_at(disc, time);
+std::optional<MeetingError> error_of_meeting(const Flight& flight, const WallLine& wall,
+                                             double time) {
+  const auto& [disc, bound] = flight;
   MeetingError meeting;
-  meeting.drift_a = drift(disc, bound, time);
+  meeting.drift_a = drift(flight, time);
   meeting.speed = speed_above(disc.velocity) + std::abs(wall.speed) * kUp;
   meeting.normal_error = wall.normal_error;
-  meeting.residual =
-      (std::abs(gap_to(wall, disc, time)) + size_of(there) * wall.normal_error + wall.offset_error +
-       8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius) +
-       place_error(wall, time)) *
-      kUp;
+  meeting.residual = with_wall_error(std::abs(gap_to(wall, disc, time)), disc, wall, time);
   const double error =
       (bound.velocity + meeting.speed * (wall.normal_error + 4 * kUnit) + speed_error(wall)) * kUp;
   const double surely = closing_speed(wall, disc) - error;
@@ -253,23 +248,24 @@ double reflected(double own, double other, double share, double other_share) {
 
 }  // namespace
 
-void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
-           double mass_b, Bound& bound_b) {
+void widen(const MeetingError& meeting, DiscSystem& system, std::uint32_t a, std::uint32_t b) {
+  const double mass_a = system.masses[a];
+  const double mass_b = system.masses[b];
   const double share_a = share_of_change(mass_a, mass_b);
   const double share_b = share_of_change(mass_b, mass_a);
   const double turned = meeting.speed * (meeting.normal_error + 32 * kUnit);
   const auto after = [&](const Bound& own, const Bound& other, double share, double other_share,
-                         const Disc& disc) {
+                         std::uint32_t disc) {
     const double position =
         reflected(own.position, other.position, share, other_share) + 2 * share * meeting.residual;
     const double velocity = reflected(own.velocity, other.velocity, share, other_share) +
-                            2 * share * turned + 2 * kUnit * size_of(disc.velocity);
+                            2 * share * turned + 2 * kUnit * size_of(system.discs[disc].velocity);
     return Bound{position * kUp + kTiny, velocity * kUp + kTiny, meeting.time_error};
   };
-  const Bound before_a = {meeting.drift_a, bound_a.velocity, 0};
-  const Bound before_b = {meeting.drift_b, bound_b.velocity, 0};
-  if (mass_a != kNever) bound_a = after(before_a, before_b, share_a, share_b, a);
-  if (mass_b != kNever) bound_b = after(before_b, before_a, share_b, share_a, b);
+  const Bound before_a = {meeting.drift_a, system.bounds[a].velocity, 0};
+  const Bound before_b = {meeting.drift_b, system.bounds[b].velocity, 0};
+  if (mass_a != kNever) system.bounds[a] = after(before_a, before_b, share_a, share_b, a);
+  if (mass_b != kNever) system.bounds[b] = after(before_b, before_a, share_b, share_a, b);
 }
 
 void widen(const MeetingError& meeting, const WallLine& wall, double restitution, Bound& bound) {

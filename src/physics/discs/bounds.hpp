@@ -4,9 +4,9 @@
 // src/physics/README.md, "Discs", derives the formulas under the names that are used here.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
-#include "physics/discs/disc.hpp"
 #include "physics/discs/disc_system.hpp"
 
 namespace piblocks::discs {
@@ -17,25 +17,22 @@ inline constexpr double kUnit = 0x1p-53;
 inline constexpr double kUp = 1 + 0x1p-45;
 
 /// How far the true centre may be from position_at(disc, time), as computed.
-double drift(const Disc& disc, const Bound& bound, double time);
+double drift(const Flight& flight, double time);
 
 /// How far the true gap may be from gap_to() or from the computed distance less the radii.
-double gap_error(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
-                 double time);
-double gap_error(const Disc& disc, const Bound& bound, const WallLine& wall, double time);
+double gap_error(const Flight& a, const Flight& b, double time);
+double gap_error(const Flight& flight, const WallLine& wall, double time);
 
 /// The time before which two discs truly do not meet, whatever rounding has done; kNever if they do
 /// not meet before one of them has met another. It is before the last meeting of one of them if the
 /// order of that and of this one is in doubt.
 /// @param top_speed  of all discs, at least
 /// @param is_one_event  whether the last meetings of both were one, several contacts at once
-double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
-                        double top_speed, bool is_one_event);
-double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
-                        double top_speed);
+double earliest_meeting(const Flight& a, const Flight& b, double top_speed, bool is_one_event);
+double earliest_meeting(const Flight& flight, const WallLine& wall, double top_speed);
 /// The same if the last meeting did not change how the disc moves towards the wall. It may be
 /// before that meeting.
-double earliest_meeting_aside(const Disc& disc, const Bound& bound, const WallLine& wall);
+double earliest_meeting_aside(const Flight& flight, const WallLine& wall);
 
 /// A meeting that truly happens, with bounds of what is wrong with the computed one.
 struct MeetingError {
@@ -49,15 +46,12 @@ struct MeetingError {
 
 /// Nothing if it is in doubt that there is a meeting: a graze.
 /// @param time  as meeting_time() has it
-std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a, const Disc& b,
-                                             const Bound& bound_b, double time);
-std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& bound,
-                                             const WallLine& wall, double time);
+std::optional<MeetingError> error_of_meeting(const Flight& a, const Flight& b, double time);
+std::optional<MeetingError> error_of_meeting(const Flight& flight, const WallLine& wall,
+                                             double time);
 
-/// The bounds of two discs after they have met. Those of an immovable disc stay.
-/// @param a, b  after the meeting
-void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
-           double mass_b, Bound& bound_b);
+/// Widens the bounds of two discs, a and b, which have just met. Those of an immovable disc stay.
+void widen(const MeetingError& meeting, DiscSystem& system, std::uint32_t a, std::uint32_t b);
 void widen(const MeetingError& meeting, const WallLine& wall, double restitution, Bound& bound);
 
 }  // namespace piblocks::discs

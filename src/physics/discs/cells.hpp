@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/discs/disc.hpp"
+#include "physics/discs/disc_system.hpp"
 
 namespace piblocks::discs {
 
@@ -46,7 +46,17 @@ class Cells {
 
   /// Calls visit(other) for each disc that may be near; for some twice, and for the disc itself.
   template <typename Visit>
-  void visit_near(std::uint32_t disc, Visit visit) const;
+  void visit_near(std::uint32_t disc, Visit visit) const {
+    if (is_large(disc)) {
+      for (const std::uint32_t cell : zones_[zone_of_[disc]].cells) visit_cell(cell, visit);
+      for (const Zone& zone : zones_) visit(zone.disc);
+      return;
+    }
+    const Place here = places_[disc];
+    visit_block({here.column - 1, here.row - 1}, {here.column + 1, here.row + 1}, visit);
+    if (guests_.empty()) return;
+    for (const std::uint32_t large : guests_[cell_at(here.column, here.row)]) visit(large);
+  }
 
  private:
   struct Place {
@@ -81,9 +91,25 @@ class Cells {
   }
   Place place_of(Vector position) const;
   template <typename Visit>
-  void visit_cell(std::size_t cell, Visit visit) const;
+  void visit_cell(std::size_t cell, Visit visit) const {
+    for (std::uint32_t other = heads_[cell]; other != kNobody;) {
+      const std::uint32_t next = discs_[other].next;
+      visit(other);
+      other = next;
+    }
+  }
   template <typename Visit>
-  void visit_block(Place first, Place last, Visit visit) const;
+  void visit_block(Place first, Place last, Visit visit) const {
+    const std::int32_t left = std::max(first.column, 0);
+    const std::int32_t right = std::min(last.column, columns_ - 1);
+    const std::int32_t bottom = std::max(first.row, 0);
+    const std::int32_t top = std::min(last.row, rows_ - 1);
+    for (std::int32_t row = bottom; row <= top; ++row) {
+      for (std::int32_t column = left; column <= right; ++column) {
+        visit_cell(cell_at(column, row), visit);
+      }
+    }
+  }
 
   std::vector<Disc>& discs_;
   Search search_;
@@ -99,41 +125,6 @@ class Cells {
   std::vector<Zone> zones_ = {};
   std::vector<std::vector<std::uint32_t>> guests_ = {};  ///< of each cell; empty if no zones
 };
-
-template <typename Visit>
-void Cells::visit_cell(std::size_t cell, Visit visit) const {
-  for (std::uint32_t other = heads_[cell]; other != kNobody;) {
-    const std::uint32_t next = discs_[other].next;
-    visit(other);
-    other = next;
-  }
-}
-
-template <typename Visit>
-void Cells::visit_block(Place first, Place last, Visit visit) const {
-  const std::int32_t left = std::max(first.column, 0);
-  const std::int32_t right = std::min(last.column, columns_ - 1);
-  const std::int32_t bottom = std::max(first.row, 0);
-  const std::int32_t top = std::min(last.row, rows_ - 1);
-  for (std::int32_t row = bottom; row <= top; ++row) {
-    for (std::int32_t column = left; column <= right; ++column) {
-      visit_cell(cell_at(column, row), visit);
-    }
-  }
-}
-
-template <typename Visit>
-void Cells::visit_near(std::uint32_t disc, Visit visit) const {
-  if (is_large(disc)) {
-    for (const std::uint32_t cell : zones_[zone_of_[disc]].cells) visit_cell(cell, visit);
-    for (const Zone& zone : zones_) visit(zone.disc);
-    return;
-  }
-  const Place here = places_[disc];
-  visit_block({here.column - 1, here.row - 1}, {here.column + 1, here.row + 1}, visit);
-  if (guests_.empty()) return;
-  for (const std::uint32_t large : guests_[cell_at(here.column, here.row)]) visit(large);
-}
 
 template <typename Visit>
 void Cells::cross(std::uint32_t disc, Visit visit) {

@@ -1,5 +1,3 @@
-#include "physics/discs/disc_stepper.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -81,10 +79,8 @@ void Stepper::plan_end_of_margin(std::uint32_t disc) {
   const Bound& bound = system_.bounds[disc];
   const double room = cells_.margin() / 4 - bound.position;
   if (room > 0 && bound.velocity == 0) return;
-  Plan proposal;
-  proposal.time = discs_[disc].time + (room > 0 ? room / bound.velocity : 0);
-  proposal.is_doubt = true;
-  if (proposal.time != kNever) propose(disc, proposal);
+  const double time = discs_[disc].time + (room > 0 ? room / bound.velocity : 0);
+  if (time != kNever) propose(disc, {.time = time, .is_doubt = true});
 }
 
 /// Two free bodies separate for ever. An immovable one is as if it had met nobody else.
@@ -94,7 +90,7 @@ bool Stepper::have_just_met(std::uint32_t disc, std::uint32_t partner) const {
     if (std::ranges::find(touched_[disc], partner) != touched_[disc].end()) return true;
   }
   if (discs_[disc].last != partner) return false;
-  return !is_disc(partner) || discs_[partner].last == disc || !system_.is_movable(partner);
+  return !system_.is_movable(partner) || discs_[partner].last == disc;
 }
 
 /// Makes the proposal the disc's plan if it is sooner. @return whether the disc's next event
@@ -137,8 +133,7 @@ std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
 }
 
 std::uint64_t Stepper::rank_of(std::uint32_t disc, std::uint32_t partner) const {
-  const bool is_partner_movable = is_disc(partner) && system_.is_movable(partner);
-  const TieRank rank = TieRank::of(disc, true, partner, is_partner_movable);
+  const TieRank rank = TieRank::of(disc, true, partner, system_.is_movable(partner));
   const std::uint64_t group = rank.has_immovable ? std::uint64_t{1} << 63 : 0;
   return group | (std::uint64_t{rank.first} << 32) | rank.second;
 }
@@ -146,7 +141,8 @@ std::uint64_t Stepper::rank_of(std::uint32_t disc, std::uint32_t partner) const 
 /// A meeting that may truly be none is in doubt from when on it is possible.
 void Stepper::doubt_graze(std::uint32_t disc) {
   Plan& plan = plans_[disc];
-  if (!is_certain() || plan.is_doubt || plan.time == kNever || is_stale(plan)) return;
+  if (!is_certain() || plan.is_doubt || plan.time == kNever) return;
+  if (is_stale(plan.partner, plan.meetings)) return;
   if (meeting_error(disc, plan.partner, plan.time)) return;
   plan.is_doubt = true;
   plan.time = plan.possible;
@@ -190,7 +186,8 @@ std::optional<SteppedCollision> Stepper::step() {
     const double time = queue_.first_time();
     if (next.crossing <= time) {
       cross(disc);
-    } else if (is_stale(next) || (has_rival(next) && is_stale(next.rival))) {
+    } else if (is_stale(next.partner, next.meetings) ||
+               (has_rival(next) && is_stale(next.rival.partner, next.rival.meetings))) {
       plan(disc);
     } else if (next.is_doubt || has_rival(next)) {
       if (is_certain()) until_ = std::max(time, 0.0);
@@ -202,27 +199,27 @@ std::optional<SteppedCollision> Stepper::step() {
 }
 
 SteppedCollision Stepper::meet(std::uint32_t disc, std::uint32_t partner, double time) {
-  SteppedCollision step;
-  step.time = {time * system_.units.time, 0};
+  const auto [first, second] = std::minmax({disc, partner});
   if (is_disc(partner)) {
-    std::tie(step.first, step.second) = std::minmax(disc, partner);
-    collide_discs(step.first, step.second, time);
-    step.second_after = motion_of(step.second, time);
+    collide_discs(first, second, time);
   } else {
-    step.first = disc;
-    step.second = partner;
     reflect_disc(disc, partner, time);
   }
-  step.first_after = motion_of(step.first, time);
-  require_finite(step);
-  if (system_.is_movable(step.first)) plan(step.first);
-  if (is_disc(partner) && system_.is_movable(step.second)) plan(step.second);
+  SteppedCollision step = step_of(first, second, time);
+  if (system_.is_movable(first)) plan(first);
+  if (system_.is_movable(second)) plan(second);
   renew_cells(time);
   return step;
 }
 
-void Stepper::require_finite(const SteppedCollision& step) {
-  if (std::isfinite(step.time.hi)) return;
+/// Of two that have just met.
+SteppedCollision Stepper::step_of(std::uint32_t disc, std::uint32_t partner, double time) const {
+  SteppedCollision step;
+  step.time = {time * system_.units.time, 0};
+  std::tie(step.first, step.second) = std::minmax(disc, partner);
+  step.first_after = motion_of(step.first, time);
+  if (is_disc(step.second)) step.second_after = motion_of(step.second, time);
+  if (std::isfinite(step.time.hi)) return step;
   throw SimulationError(fmt::format(
       "simulation: bodies {} and {}: the time of a collision is out of the range of a double",
       step.first + 1, step.second + 1));
@@ -237,8 +234,7 @@ void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double ti
   collide(a, system_.masses[first], b, system_.masses[second],
           place_of(second, time) - place_of(first, time), system_.restitution(first, second));
   if (!meeting) return;
-  widen(*meeting, a, system_.masses[first], system_.bounds[first], b, system_.masses[second],
-        system_.bounds[second]);
+  widen(*meeting, system_, first, second);
   raise_top_speed(first);
   raise_top_speed(second);
 }
@@ -300,15 +296,15 @@ Motion Stepper::motion_of(std::uint32_t disc, double time) const {
 // What is certain.
 
 double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
-  const std::vector<Bound>& bounds = system_.bounds;
+  const Flight own = system_.flight(disc);
   if (is_disc(partner)) {
-    return earliest_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner],
-                            top_speed_, are_of_one_event(disc, partner));
+    return earliest_meeting(own, system_.flight(partner), top_speed_,
+                            are_of_one_event(disc, partner));
   }
-  if (are_independent(discs_[disc].last, partner)) {
-    return earliest_meeting_aside(discs_[disc], bounds[disc], wall_of(partner));
+  if (are_independent(own.disc.last, partner)) {
+    return earliest_meeting_aside(own, wall_of(partner));
   }
-  return earliest_meeting(discs_[disc], bounds[disc], wall_of(partner), top_speed_);
+  return earliest_meeting(own, wall_of(partner), top_speed_);
 }
 
 /// Before which time a disc meets nobody, except one.
@@ -325,11 +321,10 @@ double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) {
 /// Nothing if rounding leaves in doubt whether the two meet, or when.
 std::optional<MeetingError> Stepper::meeting_error(std::uint32_t disc, std::uint32_t partner,
                                                    double time) const {
-  const std::vector<Bound>& bounds = system_.bounds;
-  std::optional<MeetingError> meeting =
-      is_disc(partner)
-          ? error_of_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner], time)
-          : error_of_meeting(discs_[disc], bounds[disc], wall_of(partner), time);
+  const Flight own = system_.flight(disc);
+  std::optional<MeetingError> meeting = is_disc(partner)
+                                            ? error_of_meeting(own, system_.flight(partner), time)
+                                            : error_of_meeting(own, wall_of(partner), time);
   const bool is_late = meeting && 8 * top_speed_ * meeting->time_error > cells_.margin() / 4;
   return is_late ? std::nullopt : meeting;
 }
@@ -344,7 +339,7 @@ std::optional<MeetingError> Stepper::certify(std::uint32_t disc, std::uint32_t p
   } else {
     double other = kNever;
     if (system_.is_movable(disc)) other = earliest_but(partner, disc);
-    if (is_disc(partner) && system_.is_movable(partner)) {
+    if (system_.is_movable(partner)) {
       other = std::min(other, earliest_but(disc, partner));
     }
     const double last = (time + meeting->time_error) * (1 + 0x1p-51);
@@ -364,12 +359,8 @@ void Stepper::raise_top_speed(std::uint32_t disc) {
 
 namespace piblocks {
 
-std::unique_ptr<DiscStepper> make_disc_stepper(const System& system, discs::Search search) {
-  return std::make_unique<discs::Stepper>(system, search);
-}
-
 std::unique_ptr<Stepper> make_disc_stepper(const System& system) {
-  return make_disc_stepper(system, discs::Search::cells);
+  return std::make_unique<discs::Stepper>(system);
 }
 
 }  // namespace piblocks

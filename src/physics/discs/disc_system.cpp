@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/real.hpp"
+#include "physics/problems.hpp"
 
 namespace piblocks::discs {
 namespace {
@@ -101,10 +102,9 @@ void add_disc(DiscSystem& result, const Body& body, const Exponents& exponents) 
 /// The normal's length is a root, so this is computed with 256 bits and then rounded.
 WallLine wall_line(const Wall& wall, const Exponents& exponents) {
   constexpr mpfr_prec_t kBits = 256;
-  const Rational square = wall.normal[0] * wall.normal[0] + wall.normal[1] * wall.normal[1];
-  const Rational along = wall.normal[0] * wall.point[0] + wall.normal[1] * wall.point[1];
-  const Rational pace = wall.normal[0] * wall.velocity[0] + wall.normal[1] * wall.velocity[1];
-  const Real norm = sqrt(Real(kBits, square));
+  const Rational along = piblocks::dot(wall.normal, wall.point);
+  const Rational pace = piblocks::dot(wall.normal, wall.velocity);
+  const Real norm = sqrt(Real(kBits, piblocks::dot(wall.normal, wall.normal)));
   WallLine line;
   line.normal = {(Real(kBits, wall.normal[0]) / norm).to_double(),
                  (Real(kBits, wall.normal[1]) / norm).to_double()};
@@ -149,7 +149,7 @@ std::vector<std::array<double, 2>> restitutions_of(const System& system) {
 
 double DiscSystem::restitution(std::uint32_t first, std::uint32_t second) const {
   if (restitutions.empty()) return 1;
-  const bool is_free = is_movable(first) && second < discs.size() && is_movable(second);
+  const bool is_free = is_movable(first) && is_movable(second);
   const std::size_t kind = is_free ? 0 : 1;
   return std::min(restitutions[first][kind], restitutions[second][kind]);
 }

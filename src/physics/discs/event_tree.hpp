@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/discs/disc.hpp"
+#include "physics/discs/disc_system.hpp"
 
 namespace piblocks::discs {
 

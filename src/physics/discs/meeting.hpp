@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/discs/disc.hpp"
+#include "physics/discs/disc_system.hpp"
 
 namespace piblocks::discs {
 

@@ -1,5 +1,5 @@
 // The engine for discs from within: what it knows and what its parts do.
-// In: a System without problems. Out: see disc_stepper.hpp.
+// In: a System without problems. Out: see physics/stepper.hpp.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 #include "physics/discs/at_once.hpp"
 #include "physics/discs/bounds.hpp"
-#include "physics/discs/disc_stepper.hpp"
+#include "physics/discs/cells.hpp"
 #include "physics/discs/event_tree.hpp"
+#include "physics/stepper.hpp"
 
 namespace piblocks::discs {
 
@@ -58,9 +59,10 @@ struct Struck {
 /// the queue until it is due: no sooner can the disc meet anybody else, so it is planned anew then.
 /// (One event a disc: Lubachevsky, "How to simulate billiards and similar systems", J. Comput.
 /// Phys. 94, 1991.)
-class Stepper final : public DiscStepper {
+class Stepper final : public piblocks::Stepper {
  public:
-  Stepper(const System& system, Search search)
+  /// Both searches give the same numbers.
+  explicit Stepper(const System& system, Search search = Search::cells)
       : system_(disc_system_of(system)),
         discs_(system_.discs),
         number_(static_cast<std::uint32_t>(discs_.size())),
@@ -79,7 +81,9 @@ class Stepper final : public DiscStepper {
 
   std::optional<SteppedCollision> step() override;
   double certain_until() const override { return until_ * system_.units.time; }
-  Bound bound_of(std::uint32_t body) const override {
+  /// While all is certain: how far the true flight of a body since its last collision may be from
+  /// the computed one, in the units of the system.
+  Bound bound_of(std::uint32_t body) const {
     const Bound& bound = system_.bounds[body];
     const Units& units = system_.units;
     return {bound.position * units.length, bound.velocity * units.speed,
@@ -90,9 +94,6 @@ class Stepper final : public DiscStepper {
   bool is_certain() const { return until_ == kNever; }
   bool is_disc(std::uint32_t partner) const { return partner < number_; }
   const WallLine& wall_of(std::uint32_t partner) const { return system_.walls[partner - number_]; }
-  std::uint32_t end_of_walls() const {
-    return number_ + static_cast<std::uint32_t>(system_.walls.size());
-  }
 
   /// Whether the order in which a disc meets both does not matter: neither changes how the disc
   /// moves towards the other. True of a wall along x and one along y.
@@ -113,8 +114,9 @@ class Stepper final : public DiscStepper {
   bool are_joint(std::uint32_t disc, const Plan& plan, const Plan& loser) const;
   static bool has_rival(const Plan& plan) { return plan.rival.possible < plan.time; }
   std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
-  template <typename Planned>
-  bool is_stale(const Planned& planned) const;
+  bool is_stale(std::uint32_t partner, std::uint32_t meetings) const {
+    return is_disc(partner) && discs_[partner].meetings != meetings;
+  }
   void doubt_graze(std::uint32_t disc);
   void enqueue(std::uint32_t disc);
   void cross(std::uint32_t body);
@@ -134,8 +136,12 @@ class Stepper final : public DiscStepper {
   /// @returns a list that is valid until the next call
   const std::vector<std::uint32_t>& discs_near(std::uint32_t body);
   void forget_near() { near_[0].body = near_[1].body = kNobody; }
+  /// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
   template <typename Visit>
-  void visit_all(std::uint32_t body, Visit visit);
+  void visit_all(std::uint32_t body, Visit visit) {
+    for (std::uint32_t wall = 0; wall < system_.walls.size(); ++wall) visit(number_ + wall);
+    for (const std::uint32_t other : discs_near(body)) visit(other);
+  }
   bool meet_alone(std::uint32_t disc, std::uint32_t partner, double time);
   Cluster cluster_of(std::uint32_t disc, std::uint32_t partner, double time);
   bool is_single(const Cluster& cluster) const;
@@ -151,7 +157,7 @@ class Stepper final : public DiscStepper {
   void end_certainty(double time);
   Vector place_of(std::uint32_t disc, double time) const;
   Motion motion_of(std::uint32_t disc, double time) const;
-  static void require_finite(const SteppedCollision& step);
+  SteppedCollision step_of(std::uint32_t disc, std::uint32_t partner, double time) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
   double earliest_but(std::uint32_t excepted, std::uint32_t body);
@@ -177,17 +183,5 @@ class Stepper final : public DiscStepper {
       events_;  ///< of each disc, the last one at once if it met nobody since
   std::vector<std::vector<std::uint32_t>> touched_;  ///< whom each disc did not approach after it
 };
-
-template <typename Planned>
-bool Stepper::is_stale(const Planned& planned) const {
-  return is_disc(planned.partner) && discs_[planned.partner].meetings != planned.meetings;
-}
-
-/// Calls visit(other) for all walls, and for each disc that may be near; for some twice.
-template <typename Visit>
-void Stepper::visit_all(std::uint32_t body, Visit visit) {
-  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) visit(wall);
-  for (const std::uint32_t other : discs_near(body)) visit(other);
-}
 
 }  // namespace piblocks::discs

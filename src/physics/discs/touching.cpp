@@ -13,7 +13,7 @@ namespace piblocks::discs {
 /// ones.
 bool Stepper::are_of_one_event(std::uint32_t disc, std::uint32_t partner) const {
   if (events_[disc] == 0) return false;
-  return !is_disc(partner) || !system_.is_movable(partner) || events_[partner] == events_[disc];
+  return !system_.is_movable(partner) || events_[partner] == events_[disc];
 }
 
 double Stepper::gap_between(std::uint32_t disc, std::uint32_t partner, double time) const {
@@ -42,7 +42,7 @@ bool Stepper::touch(double radius, Vector place, std::uint32_t partner, double t
 bool Stepper::meet_alone(std::uint32_t disc, std::uint32_t partner, double time) {
   bool are_alone = true;
   const auto look_around = [&](std::uint32_t body, std::uint32_t met) {
-    if (!is_disc(body) || !system_.is_movable(body)) return;
+    if (!system_.is_movable(body)) return;
     const double radius = discs_[body].radius;
     const Vector place = position_at(discs_[body], time);
     visit_all(body, [&](std::uint32_t other) {
@@ -70,7 +70,7 @@ Touch Stepper::touch_of(std::uint32_t disc, std::uint32_t partner, double time) 
 Cluster Stepper::cluster_of(std::uint32_t disc, std::uint32_t partner, double time) {
   Cluster cluster;
   const auto add = [&](std::uint32_t body) {
-    if (!is_disc(body) || !system_.is_movable(body)) return false;
+    if (!system_.is_movable(body)) return false;
     const bool is_known = std::ranges::find(cluster.bodies, body) != cluster.bodies.end();
     if (!is_known) cluster.bodies.push_back(body);
     return true;
@@ -149,10 +149,10 @@ bool Stepper::meet_at_once(std::uint32_t disc, std::uint32_t partner, double tim
 void Stepper::strike(const Stage& stage, double time, std::vector<Struck>& struck) {
   for (const Touch& touch : stage.touches) {
     for (const std::uint32_t body : {touch.first, touch.second}) {
-      if (!is_disc(body) || !system_.is_movable(body)) continue;
+      if (!system_.is_movable(body)) continue;
       const auto is_body = [&](const Struck& one) { return one.body == body; };
       if (std::ranges::any_of(struck, is_body)) continue;
-      const double off = drift(discs_[body], system_.bounds[body], time);
+      const double off = drift(system_.flight(body), time);
       struck.push_back({body, off, system_.bounds[body].velocity, discs_[body].velocity});
       count_meeting(body, kNobody, time);
     }
@@ -175,15 +175,8 @@ void Stepper::apply(const Stage& stage, double time) {
   for (std::size_t i = 0; i < stage.touches.size(); ++i) {
     const Touch& touch = stage.touches[i];
     discs::apply(system_, touch, stage.impulses[i]);
-    SteppedCollision step;
-    step.time = {time * system_.units.time, 0};
-    step.is_tied = is_tied;
-    step.first = is_disc(touch.second) ? std::min(touch.first, touch.second) : touch.first;
-    step.second = std::max(touch.first, touch.second);
-    step.first_after = motion_of(step.first, time);
-    if (is_disc(step.second)) step.second_after = motion_of(step.second, time);
-    require_finite(step);
-    pending_.push_back(step);
+    pending_.push_back(step_of(touch.first, touch.second, time));
+    pending_.back().is_tied = is_tied;
   }
 }
 
@@ -197,8 +190,7 @@ void Stepper::note_event(const Cluster& cluster, double least) {
   for (const Touch& touch : cluster.touches) {
     if (closing_speed(system_, touch) > least) continue;
     touched_[touch.first].push_back(touch.second);
-    if (!is_disc(touch.second) || !system_.is_movable(touch.second)) continue;
-    touched_[touch.second].push_back(touch.first);
+    if (system_.is_movable(touch.second)) touched_[touch.second].push_back(touch.first);
   }
 }
 
@@ -226,15 +218,13 @@ double Stepper::certify_at_once(Cluster& cluster, std::uint32_t disc, std::uint3
   }
   for (Touch& touch : cluster.touches) {
     if (!is_disc(touch.second)) continue;
-    const Disc& a = discs_[touch.first];
-    const Disc& b = discs_[touch.second];
-    const Bound& bound_a = system_.bounds[touch.first];
-    const Bound& bound_b = system_.bounds[touch.second];
-    const Vector w = b.velocity - a.velocity;
-    const double sideways = std::abs(dot(w, {-touch.normal.y, touch.normal.x})) + bound_a.velocity +
-                            bound_b.velocity + 0x1p-50 * length(w);
-    const double moved = gap_error(a, bound_a, b, bound_b, time) + sideways * late;
-    touch.normal_error = moved / (a.radius + b.radius) * (1 + 0x1p-30);
+    const Flight a = system_.flight(touch.first);
+    const Flight b = system_.flight(touch.second);
+    const Vector w = b.disc.velocity - a.disc.velocity;
+    const double sideways = std::abs(dot(w, {-touch.normal.y, touch.normal.x})) + a.bound.velocity +
+                            b.bound.velocity + 0x1p-50 * length(w);
+    const double moved = gap_error(a, b, time) + sideways * late;
+    touch.normal_error = moved / (a.disc.radius + b.disc.radius) * (1 + 0x1p-30);
   }
   is_known = is_known && other > (time + late) * (1 + 0x1p-51) && is_clear(cluster, time, late);
   if (!is_known || !are_decided(system_, cluster.touches, least)) end_certainty(doubt);
@@ -246,13 +236,11 @@ bool Stepper::is_clear(const Cluster& cluster, double time, double late) {
   bool is_clear = true;
   for (const std::uint32_t body : cluster.bodies) {
     visit_all(body, [&](std::uint32_t other) {
-      const Disc& own = discs_[body];
-      const std::vector<Bound>& bounds = system_.bounds;
+      const Flight own = system_.flight(body);
       const double error =
-          2 * top_speed_ * late +
-          (is_disc(other) ? gap_error(own, bounds[body], discs_[other], bounds[other], time)
-                          : gap_error(own, bounds[body], wall_of(other), time));
-      const double limit = kTouch * (own.radius + (is_disc(other) ? discs_[other].radius : 0));
+          2 * top_speed_ * late + (is_disc(other) ? gap_error(own, system_.flight(other), time)
+                                                  : gap_error(own, wall_of(other), time));
+      const double limit = kTouch * (own.disc.radius + (is_disc(other) ? discs_[other].radius : 0));
       const double beyond = std::abs(gap_between(body, other, time) - limit);
       // Touching discs may overlap, but not by much.
       if (!(beyond > 2 * error) || !(error < limit)) is_clear = false;
