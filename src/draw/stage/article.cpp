@@ -30,7 +30,7 @@ double text_size(const Rect& area) {
          std::clamp(aspect / kUsualAspect, 1.0, kMostBannerText);
 }
 
-double length(const Range& range) { return to_double(range.high - range.low); }
+double length_of(const Range& range) { return to_double(range.high - range.low); }
 
 class ArticleBlocks {
  public:
@@ -106,13 +106,13 @@ Layout article_layout(const LayoutContext& context, const CountLine& count_line,
   const double label_height = Font::kCapHeight_em * line.text_px + gap;
   const double inner_height = area.height - 2 * margin - label_height - extra.below;
   layout.scale =
-      std::min((area.width - 2 * margin) / length(view.x), inner_height / length(view.y));
+      std::min((area.width - 2 * margin) / length_of(view.x), inner_height / length_of(view.y));
   const bool rounded = layout.scale >= kLeastRounded_px;
   const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
   if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
   check_resolution(view.x, "view.x", layout.scale);
-  const double view_width = layout.scale * length(view.x);
-  const double view_height = layout.scale * length(view.y);
+  const double view_width = layout.scale * length_of(view.x);
+  const double view_height = layout.scale * length_of(view.y);
   const double top = area.y + (area.height - view_height - label_height - extra.below) / 2;
   layout.origin = {
       to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
