@@ -78,15 +78,6 @@ TEST_F(FilmTest, PartsFollowEachOther) {
   EXPECT_EQ(made.frame_count(), 78);
 }
 
-TEST_F(FilmTest, OfASceneIsTheScene) {
-  const Script script = read("digits = 2");
-  const Film made(script);
-  const FilmSegment part(std::get<Scene>(script), FilmMaking{});
-  ASSERT_EQ(made.segments().size(), 1U);
-  EXPECT_EQ(made.frame_count(), part.frame_count());
-  EXPECT_EQ(made.frame(17), part.frame(17));
-}
-
 TEST_F(FilmTest, APartShowsWhatItsSceneWouldShowAlone) {
   const Film made = film(kStory);
   const Film alone = film("digits = 2\ntime.duration = 2\nview.shutter = 1");
