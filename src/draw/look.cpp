@@ -120,11 +120,12 @@ constexpr double kTextContrast = 4.5;
 constexpr double kLineContrast = 3;
 constexpr double kFillContrast = 2;
 
-constexpr auto kLight = [] {
+constexpr std::array<double, 256> light_of_samples() {
   std::array<double, 256> light{};
   for (std::size_t i = 0; i < light.size(); ++i) light[i] = light_of(double(i) / 255);
   return light;
-}();
+}
+constexpr std::array<double, 256> kLight = light_of_samples();
 
 /// WCAG 2.1, "relative luminance".
 double luminance(const Color& color) {

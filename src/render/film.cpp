@@ -101,6 +101,13 @@ std::vector<Voice> voices_of(const Film& film) {
   return voices;
 }
 
+/// That a picture shows, while its shutter is open too.
+Rational last_time(const FrameTime& shown) {
+  Rational last = shown.time;
+  for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
+  return last;
+}
+
 }  // namespace
 
 FilmRun::FilmRun(Scene scene, std::unique_ptr<const Log> log, FilmUse use)
@@ -111,9 +118,7 @@ FilmRun::FilmRun(Scene scene, std::unique_ptr<const Log> log, FilmUse use)
 
 DrawList FilmRun::picture(const FrameTime& shown, const Rational& speed,
                           const std::optional<VideoTime>& video_time) const {
-  Rational last = shown.time;
-  for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
-  require_certain(scene_, *log_, last);
+  require_certain(scene_, *log_, last_time(shown));
   return composition_->frame(frame_state(*log_, shown, composition_->needs(), speed, video_time));
 }
 
@@ -239,7 +244,8 @@ std::int64_t FilmSegment::furthest_frame() const {
 void FilmSegment::require_certain(const FrameRange& frames) const {
   for (const FilmRun& run : runs_) {
     const std::int64_t furthest = std::clamp(furthest_frame(), frames.first, frames.last);
-    piblocks::require_certain(run.scene(), run.log(), schedule_->time_of(furthest));
+    piblocks::require_certain(run.scene(), run.log(),
+                              last_time(schedule_->frame(furthest, open_s(run.scene().view))));
   }
 }
 

@@ -233,11 +233,11 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
 
 TEST(LineTest, DoublesOfLossAndMotionAreRight) {
   Limits limits{.most_bodies = 5, .is_lossy = true};
-  EXPECT_GT(certain_steps_of(many(40), 5'000'000, lines_of(limits)), 20);
+  EXPECT_GT(certain_steps_of(many(100), 5'000'000, lines_of(limits)), 20);
   limits.is_driven = true;
-  EXPECT_GT(certain_steps_of(many(40), 7'000'000, lines_of(limits)), 20);
+  EXPECT_GT(certain_steps_of(many(100), 7'000'000, lines_of(limits)), 20);
   limits.is_lossy = false;
-  EXPECT_GT(certain_steps_of(many(40), 6'000'000, lines_of(limits)), 20);
+  EXPECT_GT(certain_steps_of(many(100), 6'000'000, lines_of(limits)), 20);
 }
 
 /// It takes contacts in order, and is not certain where that matters.

@@ -116,7 +116,9 @@ struct Approach {
   double fastest;  ///< the closing speed, at most
   double gap;      ///< at the last meeting, at least
 
-  Approach(const Flight& flight, const WallLine& wall) {
+  Approach(const Flight& flight, const WallLine& wall)
+      : gap(gap_to(wall, flight.disc, flight.disc.time) -
+            gap_error(flight, wall, flight.disc.time)) {
     const auto& [disc, bound] = flight;
     const Vector v = disc.velocity;
     // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
@@ -125,7 +127,6 @@ struct Approach {
     b = (bound.velocity + size_of(v) * wall.normal_error + rounding + speed_error(wall)) * kUp;
     const double closing = closing_speed(wall, disc);
     fastest = b + closing;
-    gap = gap_to(wall, disc, disc.time) - gap_error(flight, wall, disc.time);
   }
 
   bool never_meets() const { return fastest < 0 || (fastest == 0 && b == 0); }

@@ -81,13 +81,13 @@ export class Bodies {
   #cell(row, number, column) {
     const {name, property, i} = column;
     const value = i === undefined ? row[property] : row[property][i];
-    const key = `body ${number}.${this.#keyOf(property)}`;
+    const key = () => `body ${number}.${this.#keyOf(property)}`;
     const onInput = () => {
       const cells = this.#cells[number - 1].filter(cell => cell.dataset.property === property);
       const words = cells.map(cell => cell.value.replace(/[\t\n\r]+/g, " ")).join("\t");
-      this.#session.edit(key, words, true);
+      this.#session.edit(key(), words, true);
     };
-    const input = lineOf({onInput, onEscape: () => this.#session.forget(key)},
+    const input = lineOf({onInput, onEscape: () => this.#session.forget(key())},
       {value, "aria-label": `Body ${number}, ${name}`, "aria-describedby": "bodies-problem"});
     input.dataset.property = property;
     input.addEventListener("blur", () => {

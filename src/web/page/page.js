@@ -269,15 +269,17 @@ function invite(place) {
   requestAnimationFrame(() => player.play({isSilent: true}));
 }
 
-/** Opens the scene that the address names; the other one if it names none, or cannot be read. */
+/** Opens the scene that the address names.
+ * @param otherwise  text and place of another one, if it names none, or cannot be read; or null */
 async function openAddress(otherwise) {
   let problem = "";
   const wanted = await sceneOf(location.hash, scenes).catch(error => {
     linkProblem = problem = `Link: ${error.message}`;
     sayIn(byId("problem"), problem);
   }) ?? otherwise;
-  if (wanted) open(wanted.text, wanted.place, problem);
-  return wanted;
+  if (!wanted) return;
+  if (!session.facts) firstPlace = wanted.place;
+  open(wanted.text, wanted.place, problem);
 }
 const given = JSON.parse(byId("opened-scene").textContent);
-firstPlace = (await openAddress({text: given?.text ?? shippedText(FIRST_SCENE), place: {frame: 0}})).place;
+await openAddress({text: given?.text ?? shippedText(FIRST_SCENE), place: {frame: 0}});
