@@ -1,3 +1,4 @@
+// 'piblocks info' and 'piblocks scenes': what there is.
 #include <fmt/format.h>
 #include <piblocks/compare.hpp>
 #include <piblocks/exact.hpp>

@@ -1,4 +1,5 @@
-// What 'compare' and 'golden check' of a folder have in common: options, lines, reports.
+// 'piblocks compare', and what 'golden check' of a folder has in common with it: options, lines,
+// reports.
 // In: a job. Out: lines on standard output, reports, an exit code.
 #pragma once
 

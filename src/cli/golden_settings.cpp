@@ -1,3 +1,4 @@
+// What 'golden' of a folder accepts: options that it keeps beside the references.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Open files of the operating system, its folders and its errors.
+// Open files of the operating system, its folders and its errors; how files get onto the disk.
 // In: a descriptor, a folder or an errno. Out: an owner that closes the descriptor; what the folder
 // holds; the text of the error.
 #pragma once

@@ -1,4 +1,4 @@
-// Floating point of any precision.
+// Floating point of any precision, and the size of exact numbers.
 // In: exact rationals and a number of bits. Out: correctly rounded results of MPFR.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace piblocks {
 
-/// Of the numerator and the denominator together.
+/// Bits of the numerator and the denominator together.
 inline std::size_t size_bits(const Rational& value) {
   return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
 }

@@ -1,4 +1,4 @@
-// What draw items are made of: points and rectangles, ids, colours, lines.
+// What draw items are made of: points, rectangles and circles, ids, colours, lines.
 // In: composition. Out: parts of items.
 #pragma once
 
@@ -111,6 +111,7 @@ struct Circle {
     const auto [sine, cosine] = rounded::sin_cos(angle);
     return {centre.x + radius * cosine, centre.y - radius * sine};
   }
+  /// steps + 1 points.
   std::vector<Point> arc(double from, double to, int steps) const {
     std::vector<Point> points;
     for (int i = 0; i <= steps; ++i) points.push_back(at(from + (to - from) * i / steps));

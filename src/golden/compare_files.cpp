@@ -108,6 +108,7 @@ class VideoSide final : public FrameSide {
   std::int64_t fetched_ = 0;
 };
 
+// How a shift of frames between two videos is found.
 constexpr int kColumns = 640;            // of pixels that are read, at least
 constexpr std::size_t kMostFrames = 64;  // that are looked at
 constexpr int kMostShift = 24;           // so that most of them are compared

@@ -1,4 +1,5 @@
-// The rows of a comparison, counted in one place for pictures, videos and hashes; those of hashes.
+// The rows of a comparison, counted in one place for pictures, videos and hashes; files of hashes
+// (read_framehash), and their rows.
 // In: what was found about a frame, or two files of hashes. Out: the row with its number, and the
 // counts of all.
 #pragma once

@@ -98,7 +98,7 @@ class Index : private TrackWriter {
   std::uint64_t duration_;
 };
 
-constexpr std::uint64_t kId = 2;
+constexpr std::uint64_t kSoundId = 2;
 
 std::uint64_t rounded_up(std::int64_t value, std::int64_t factor, std::int64_t divisor) {
   const std::int64_t whole = value / divisor * factor;  // apart, so that no product passes 63 bits
@@ -111,7 +111,7 @@ class SoundTrack : private TrackWriter {
       : sound_(sound), tables_(tables) {
     const auto delay = static_cast<std::uint64_t>(sound.delay);
     media_duration_ = delay + static_cast<std::uint64_t>(sound.samples);
-    const Head head{.id = kId,
+    const Head head{.id = kSoundId,
                     .time_scale = static_cast<std::uint64_t>(sound.rate_hz),
                     .duration = sound_duration(sound, movie_scale),
                     .media_duration = media_duration_,
@@ -191,7 +191,7 @@ class SoundTrack : private TrackWriter {
     };
     put(0, 4);
     put_tag(3, 3 + 5 + 13 + 5 + config + 5 + 1);  // ES_Descriptor
-    put(kId, 2);                                  // ES_ID
+    put(kSoundId, 2);                             // ES_ID
     put(0, 1);
     put_tag(4, 13 + 5 + config);  // DecoderConfigDescriptor
     put(0x40, 1);                 // AAC

@@ -65,6 +65,7 @@ std::string key_of(const System& system, std::size_t body, const char* value);
 /// As in "the left wall", or "the wall".
 std::string noun_of(const Wall& wall);
 
+/// Of vectors of a plane; it is exact.
 inline Rational dot(const ExactVector& a, const ExactVector& b) {
   return a[0] * b[0] + a[1] * b[1];
 }

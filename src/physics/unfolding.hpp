@@ -1,6 +1,6 @@
 // The closed form's numbers, rounded from exact ones, and its formulas.
 // In: an ExactMotion. Out: the directions of rays as seen from the corner, and the collisions on
-// them. Notation and error bounds: README.md.
+// them; streams and exposures of these. Notation and error bounds: README.md.
 #pragma once
 
 #include <piblocks/exact.hpp>

@@ -241,11 +241,14 @@ std::int64_t FilmSegment::furthest_frame() const {
   return is_loop ? frame_count_ / 2 : frame_count_ - 1;
 }
 
-void FilmSegment::require_certain(const FrameRange& frames) const {
+void FilmSegment::require_certain(const FrameRange& frames, bool is_heard) const {
   for (const FilmRun& run : runs_) {
-    const std::int64_t furthest = std::clamp(furthest_frame(), frames.first, frames.last);
-    piblocks::require_certain(run.scene(), run.log(),
-                              last_time(schedule_->frame(furthest, open_s(run.scene().view))));
+    const View& view = run.scene().view;
+    const std::int64_t furthest =
+        std::clamp(furthest_frame(), is_heard ? 0 : frames.first, frames.last);
+    const FrameTime shown =
+        schedule_->frame(furthest, is_heard ? Rational(1 / view.frame_rate) : open_s(view));
+    piblocks::require_certain(run.scene(), run.log(), last_time(shown));
   }
 }
 
@@ -330,11 +333,11 @@ DrawList Film::frame(std::int64_t number) const {
   return faded(before.segment.frame(number - before.first_frame), opacity);
 }
 
-void Film::require_certain(const FrameRange& frames) const {
+void Film::require_certain(const FrameRange& frames, bool is_heard) const {
   for (const auto& [segment, first_frame, fade] : segments_) {
     const FrameRange own{std::max<std::int64_t>(frames.first - first_frame, 0),
                          std::min(frames.last - first_frame, segment.frame_count() - 1)};
-    if (own.first <= own.last) segment.require_certain(own);
+    if (own.first <= own.last) segment.require_certain(own, is_heard);
   }
 }
 

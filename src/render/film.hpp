@@ -97,8 +97,8 @@ class FilmSegment {
   DrawList frame(std::int64_t number) const;
   /// The frame that comes furthest in time: the last one, or where a loop turns back.
   std::int64_t furthest_frame() const;
-  /// Computes all runs as far as these frames go. @throws UsageError as require_certain()
-  void require_certain(const FrameRange& frames) const;
+  /// As Film::require_certain().
+  void require_certain(const FrameRange& frames, bool is_heard) const;
 
   /// The words of a segment without runs.
   const Card& card() const noexcept { return card_; }
@@ -147,8 +147,10 @@ class Film {
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
   /// Computes all runs as far as these frames go, so that nobody waits for a film that ends with a
-  /// refusal. @throws UsageError if what they show is not certain
-  void require_certain(const FrameRange& frames) const;
+  /// refusal.
+  /// @param is_heard  with the sound, which depends on that of earlier frames
+  /// @throws UsageError if collisions that they show are not certain
+  void require_certain(const FrameRange& frames, bool is_heard) const;
   /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
   std::span<const PlacedSegment> segments() const noexcept { return segments_; }
   /// The frames of a segment that a lecturer shows by itself: from the first one of its own fade to

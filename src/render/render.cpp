@@ -340,7 +340,7 @@ Film film_of(const RenderJob& job, const std::stop_token& stop) {
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
                      const std::stop_token& stop, FilmSound* sound) {
   const Plan plan(job, film);
-  film.require_certain(plan.frames);
+  film.require_certain(plan.frames, plan.sound.has_value());
   if (job.max_flashes && plan.output.has_frames) {
     check_flashes(plan.film, *job.max_flashes, stop, plan.frames);
   }

@@ -27,6 +27,7 @@ Film film_of(const RenderJob& job, const std::stop_token& stop);
 
 /// render() of a job that is neither a bundle nor a page. @param film  of the job
 /// @param sound  the film's, if several renderings read on in it; null for one of its own
+/// @throws UsageError if a frame is not certain, before the first one; as render()
 Rendered render_film(const RenderJob& job, const Film& film, const OnProgress& on_progress,
                      const std::stop_token& stop, FilmSound* sound = nullptr);
 

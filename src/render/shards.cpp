@@ -15,7 +15,7 @@
 #include "core/stop.hpp"
 #include "draw/canvas.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/mp4/mp4_file.hpp"
+#include "media/mp4/coded_sound.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
 #include "render/film.hpp"

@@ -1,6 +1,6 @@
 // Every key of a scene: how its value is read and written; rules that several kinds of values
-// share. In: a key and the texts of its value. Out: that value in the scene, or its texts again;
-// problems.
+// share; a whole script as text.
+// In: a key and the texts of its value. Out: that value in the scene, or its texts again; problems.
 #pragma once
 
 #include <fmt/format.h>

@@ -55,30 +55,30 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
 constexpr auto kSplits = std::to_array<Name<Split>>(
     {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});
 
-std::vector<std::string> list_of(const auto& table) {
+std::vector<std::string> texts_in(const auto& table) {
   std::vector<std::string> names;
   names.reserve(table.size());
   for (const auto& name : table) names.emplace_back(name.text);
   return names;
 }
 
-std::string names_of(const auto& table) {
-  return fmt::format("{}", fmt::join(list_of(table), ", "));
+std::string joined_texts(const auto& table) {
+  return fmt::format("{}", fmt::join(texts_in(table), ", "));
 }
 
-auto find(const auto& table, std::string_view text) {
+auto find_in(const auto& table, std::string_view text) {
   return std::ranges::find_if(table, [&](const auto& name) { return text == name.text; });
 }
 
 auto parse(const auto& table, std::string_view text) {
-  const auto found = find(table, text);
-  if (found == table.end()) throw UsageError(must_be_one_of(text, list_of(table)));
+  const auto found = find_in(table, text);
+  if (found == table.end()) throw UsageError(must_be_one_of(text, texts_in(table)));
   return found->value;
 }
 
-bool has(const auto& table, std::string_view text) { return find(table, text) != table.end(); }
+bool has(const auto& table, std::string_view text) { return find_in(table, text) != table.end(); }
 
-std::string text_of(const auto& table, auto value) {
+std::string text_in(const auto& table, auto value) {
   return std::ranges::find_if(table, [&](const auto& name) { return value == name.value; })->text;
 }
 
@@ -119,15 +119,15 @@ Panel parse_panel(std::string_view name) {
 }
 Split parse_split(std::string_view name) { return parse(kSplits, name); }
 
-std::string exact_text(Theme theme) { return text_of(kThemes, theme); }
-std::string exact_text(Contacts contacts) { return text_of(kContacts, contacts); }
-std::string exact_text(Overlay overlay) { return text_of(kOverlays, overlay); }
-std::string exact_text(Panel panel) { return text_of(kPanels, panel); }
-std::string exact_text(Split split) { return text_of(kSplits, split); }
+std::string exact_text(Theme theme) { return text_in(kThemes, theme); }
+std::string exact_text(Contacts contacts) { return text_in(kContacts, contacts); }
+std::string exact_text(Overlay overlay) { return text_in(kOverlays, overlay); }
+std::string exact_text(Panel panel) { return text_in(kPanels, panel); }
+std::string exact_text(Split split) { return text_in(kSplits, split); }
 
-std::string theme_names() { return names_of(kThemes); }
-std::string overlay_names() { return names_of(kOverlays); }
-std::string panel_names() { return names_of(kPanels); }
+std::string theme_names() { return joined_texts(kThemes); }
+std::string overlay_names() { return joined_texts(kOverlays); }
+std::string panel_names() { return joined_texts(kPanels); }
 
 RgbColor parse_color(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdefABCDEF";

@@ -16,7 +16,7 @@
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
-#include "media/mp4/mp4_file.hpp"
+#include "media/mp4/coded_sound.hpp"
 #include "render/renderings.hpp"
 #include "web/choices.hpp"
 #include "web/facts.hpp"

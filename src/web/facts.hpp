@@ -1,4 +1,4 @@
-// What a page shows in its fields and lists.
+// What a page shows in its fields and lists; exact numbers as people write them.
 // In: a film; the scenes and names that the program has. Out: JSON.
 #pragma once
 

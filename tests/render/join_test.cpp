@@ -9,7 +9,7 @@
 
 #include "draw/composed_pictures.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/mp4/mp4_file.hpp"
+#include "media/mp4/coded_sound.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
 #include "rendered_parts.hpp"

@@ -160,7 +160,8 @@ TEST(SheetPictures, AreReportedOneByOneUntilStopped) {
   };
   sheet_pictures(run_of(scene_of_digits(2)), instants, on_progress, stop.get_token());
   EXPECT_EQ(done, (std::vector<std::int64_t>{1, 2, 3, 4, 5}));
-  EXPECT_THROW(sheet_pictures(run_of(scene_of_digits(2)), instants, on_progress, stop.get_token()),
+  EXPECT_THROW(sheet_pictures(run_of(scene_of_digits(2), stop.get_token()), instants, on_progress,
+                              stop.get_token()),
                Interrupted);
   EXPECT_EQ(done.size(), 8);
 }

@@ -9,7 +9,7 @@
 #include "core/smooth_step.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/unfolded_line.hpp"
-#include "draw/panels/velocity_labels.hpp"
+#include "draw/panels/velocities.hpp"
 
 namespace piblocks {
 namespace {

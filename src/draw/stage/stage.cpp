@@ -22,7 +22,7 @@ constexpr int kTrail_s = 2;
 constexpr double kLeastRim = 4;
 
 /// A block's id, from the last block to the first, which is in front. It leaves room for bars.
-ItemId id_of(std::size_t body, std::size_t count) {
+ItemId block_id(std::size_t body, std::size_t count) {
   constexpr std::size_t kWithBars = 8;
   constexpr std::size_t kFewBodies = 100;
   if (body == 0) return ItemId::blue_block;
@@ -127,7 +127,7 @@ void add_blocks(const FrameState& shown, const Layout& layout,
   std::vector<PlacedBody> blocks;
   blocks.reserve(count);
   for (std::size_t i = count; i-- > 0;) {
-    blocks.push_back({id_of(i, count), i, block_at(layout.at(i, shown), colors[i], layout)});
+    blocks.push_back({block_id(i, count), i, block_at(layout.at(i, shown), colors[i], layout)});
   }
   const PixelRect seen{0, 0, int(std::ceil(layout.visible_right_px)),
                        int(std::ceil(layout.wall_bottom_px))};

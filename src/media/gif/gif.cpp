@@ -23,7 +23,7 @@ constexpr std::size_t kPlace_bytes = 8;
 constexpr std::size_t kHead_bytes = 12;
 using Colors = std::vector<std::uint32_t>;  // 0x00RRGGBB
 
-constexpr int kMaxWidth_bits = 12;
+constexpr int kMaxCode_bits = 12;
 using LzwCode = std::uint16_t;
 constexpr LzwCode kLzwClear = 256;
 
@@ -38,7 +38,7 @@ class Strings {
   LzwCode find(LzwCode code, std::uint8_t value) { return slot(code, value).code; }
   /// @return whether there is room, beside pixels of 8 bits, for one more.
   bool add(LzwCode code, std::uint8_t value) {
-    constexpr LzwCode kLast = (1 << kMaxWidth_bits) - 2;
+    constexpr LzwCode kLast = (1 << kMaxCode_bits) - 2;
     slot(code, value) = {key_of(code, value), ++last_};
     return last_ < kLast;
   }
@@ -109,7 +109,7 @@ void append_lzw(Bytes& bytes, ByteSpan codes, const Bytes& indices, int bits) {
     if (code == kLzwClear) {
       width_bits = bits + 1;
       last_string = clear + 1;
-    } else if (++last_string == 1U << width_bits && width_bits < kMaxWidth_bits) {
+    } else if (++last_string == 1U << width_bits && width_bits < kMaxCode_bits) {
       ++width_bits;
     }
   }

@@ -1,6 +1,7 @@
-// libav's objects with C++ owners, and its error codes as exceptions.
-// In: what libav's functions return. Out: typed owners, or an exception.
-// Only this folder includes libav. Pass AVFrame& and the like onward, never the owners.
+// libav's objects with C++ owners, and its error codes as exceptions; libavformat's functions,
+// which are loaded late; what differs between the versions. In: what libav's functions return. Out:
+// typed owners, or an exception. Only this folder includes libav. Pass AVFrame& and the like
+// onward, never the owners.
 #pragma once
 
 #include <cstdint>

@@ -76,8 +76,8 @@ std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format, const h2
 /// read_video()
 std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
                                                const std::stop_token& stop = {});
-/// The frames of a GIF, each a whole picture.
 struct VideoInput;
+/// The frames of a GIF, each a whole picture.
 std::unique_ptr<FrameReader> read_gif(const std::string& path, std::unique_ptr<VideoInput> input);
 /// hash_of_bytes()
 std::string compute_hash(ByteSpan bytes);

@@ -1,3 +1,4 @@
+// What differs between the versions of libav that Debian 12 and 13 have: FFmpeg 5.1 to 7.1.
 #include "media/libav/av.hpp"
 
 namespace piblocks {

@@ -37,7 +37,7 @@ inline constexpr SoundCodec kOpus = {
 class SoundEncoder {
  public:
   /// @throws UsageError if libavcodec lacks it.
-  SoundEncoder(const SoundCodec& codec, const SoundFormat& format);
+  SoundEncoder(SoundCodec codec, const SoundFormat& format);
 
   const SoundFormat& format() const noexcept { return format_; }
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }

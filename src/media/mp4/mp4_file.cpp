@@ -1,5 +1,4 @@
-#include "media/mp4/mp4_file.hpp"
-
+// MP4 files of our own encoder, and sound for them that was encoded elsewhere.
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -11,6 +10,7 @@
 
 #include "core/output_file.hpp"
 #include "media/libav/av_module.hpp"
+#include "media/mp4/coded_sound.hpp"
 #include "media/mp4/h264_chunk.hpp"
 #include "media/output/output_kinds.hpp"
 

@@ -122,8 +122,8 @@ class PcmPackets final : public PacketSource {
 
 class WavSink final : public FrameSink {
  public:
-  WavSink(const std::string& name, const SoundFormat& format)
-      : name_(name), format_(format), file_(name) {}
+  WavSink(std::string name, const SoundFormat& format)
+      : name_(std::move(name)), format_(format), file_(name_) {}
 
   void take_sound(PacketSource& sound) override { sound_ = &sound; }
   void append(const EncodedChunk& /*chunk*/) override {

@@ -25,7 +25,7 @@ constexpr std::uint8_t kEndRecord = 'E';
 constexpr std::size_t kSoundPackets = 64;
 /// Limits of the header. Numbers of a scene may have 100,000 digits each, and each of its bodies,
 /// of which there may be 100,000, has a line.
-constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
+constexpr std::size_t kMaxHeaderLine_bytes = 4 * 1024 * 1024;
 constexpr std::size_t kMaxHeaderLines = 200'000;
 
 // pts, dts, key frame, size.
@@ -125,7 +125,7 @@ ShardReader::ShardReader(std::string path) : path_(std::move(path)) {
 void ShardReader::read_header() {
   bool is_shard = read_line(kMagic.size()) == kMagic;
   while (is_shard && header_.size() < kMaxHeaderLines) {
-    const std::optional<std::string> line = read_line(kMaxLine_bytes);
+    const std::optional<std::string> line = read_line(kMaxHeaderLine_bytes);
     if (line && line->empty()) return;
     const std::size_t colon = line ? line->find(": ") : std::string::npos;
     is_shard = colon != std::string::npos;

@@ -51,8 +51,7 @@ class ApngEncoder final : public AnimationEncoder {
 
 class ApngSink final : public AnimationSink {
  public:
-  explicit ApngSink(const OutputRequest& request)
-      : AnimationSink(request, kApngPlace_bytes), rate_(request.format.frame_rate) {
+  explicit ApngSink(const OutputRequest& request) : AnimationSink(request, kApngPlace_bytes) {
     const VideoFormat& format = request.format;
     Bytes bytes;
     append_png_header(bytes, format.width_px, format.height_px,
@@ -62,7 +61,7 @@ class ApngSink final : public AnimationSink {
     const std::size_t rate = begin_png_chunk(bytes, "tEXt");
     piblocks::append(bytes, kFrameRateKeyword);
     bytes.push_back(0);
-    piblocks::append(bytes, rate_.get_str());
+    piblocks::append(bytes, format.frame_rate.get_str());
     end_png_chunk(bytes, rate);
     file().write(bytes);
   }
@@ -75,8 +74,9 @@ class ApngSink final : public AnimationSink {
     const std::size_t control = begin_png_chunk(bytes, "fcTL");
     append_big_endian(bytes, next_sequence_++, 4);
     piblocks::append(bytes, place);
-    append_big_endian(bytes, std::uint64_t(end - first) * rate_.get_den().get_ui(), 2);
-    append_big_endian(bytes, rate_.get_num().get_ui(), 2);
+    const Rational& rate = request().format.frame_rate;
+    append_big_endian(bytes, std::uint64_t(end - first) * rate.get_den().get_ui(), 2);
+    append_big_endian(bytes, rate.get_num().get_ui(), 2);
     bytes.push_back(0);  // stays until the next frame is drawn over it,
     bytes.push_back(0);  // which replaces it
     end_png_chunk(bytes, control);
@@ -96,7 +96,6 @@ class ApngSink final : public AnimationSink {
     file().write_at(kAnimationControl, control);
   }
 
-  Rational rate_;
   std::uint64_t next_sequence_ = 0;
   std::int64_t images_ = 0;
 };

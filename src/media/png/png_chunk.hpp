@@ -1,5 +1,6 @@
-// What PNG files are made of: chunks (PNG specification, section 5.3) and deflate streams.
-// In: data. Out: chunks, appended to a file in memory; compressed bytes.
+// What PNG files are made of: chunks (PNG specification, section 5.3), deflate streams, and the
+// mark by which piblocks knows its own files. In: data. Out: chunks, appended to a file in memory;
+// compressed bytes.
 #pragma once
 
 #include <piblocks/image.hpp>

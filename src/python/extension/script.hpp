@@ -1,4 +1,4 @@
-// A scene or a storyboard, and what it was made from.
+// A scene or a storyboard, and what it was made from; plain types that all of the extension uses.
 // In: the text of a scene file, if there is one, and keys with their texts. Out: the library's
 // script.
 #pragma once

@@ -1,4 +1,7 @@
-"""Holds the pictures of pytest's tests to reference PNG files: where these are, and which test has them."""
+"""Holds the pictures of pytest's tests to reference PNG files.
+
+It also knows where these are, and which test has them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-// Elements of the page, and numbers as people read them.
+// Elements of the page, its address and delays; numbers as people read them.
 
 /** @returns {any} the element of this id */
 export const byId = id => document.getElementById(id);

@@ -1,4 +1,4 @@
-#include "draw/panels/velocity_labels.hpp"
+#include "draw/panels/velocities.hpp"
 
 #include <algorithm>
 #include <array>
