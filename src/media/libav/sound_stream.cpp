@@ -80,10 +80,10 @@ class SoundPackets final : public PacketSource {
 
 }  // namespace
 
-SoundEncoder::SoundEncoder(SoundCodec codec, const SoundFormat& format)
-    : settings_(std::move(codec)),
-      format_(format),
-      codec_(find(settings_)),
+SoundEncoder::SoundEncoder(const SoundCodec& codec, SoundFormat format)
+    : settings_(codec),
+      format_(std::move(format)),
+      codec_(find(codec)),
       parameters_(own_av<AvParametersPtr>(avcodec_parameters_alloc(), "parameters")) {
   const AvCodecContextPtr context = open();
   check_av(avcodec_parameters_from_context(parameters_.get(), context.get()), "describe",

@@ -37,7 +37,7 @@ inline constexpr SoundCodec kOpus = {
 class SoundEncoder {
  public:
   /// @throws UsageError if libavcodec lacks it.
-  SoundEncoder(SoundCodec codec, const SoundFormat& format);
+  SoundEncoder(const SoundCodec& codec, SoundFormat format);
 
   const SoundFormat& format() const noexcept { return format_; }
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }

@@ -122,8 +122,8 @@ class PcmPackets final : public PacketSource {
 
 class WavSink final : public FrameSink {
  public:
-  WavSink(std::string name, const SoundFormat& format)
-      : name_(std::move(name)), format_(format), file_(name_) {}
+  WavSink(std::string name, SoundFormat format)
+      : name_(std::move(name)), format_(std::move(format)), file_(name_) {}
 
   void take_sound(PacketSource& sound) override { sound_ = &sound; }
   void append(const EncodedChunk& /*chunk*/) override {
