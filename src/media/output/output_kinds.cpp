@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "h264/mp4_writer.hpp"
 #include "media/pixels/yuv.hpp"
