@@ -141,7 +141,7 @@ void run_page(const Command& options, const SceneOptions& scene) {
   write_page(page, scene_toml(script), out);
   check_stop(signals.token());
   out.finish();
-  note_picture(script);
+  note_convention_and_contrast(script);
 }
 
 }  // namespace

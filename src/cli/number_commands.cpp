@@ -118,7 +118,7 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
                   is_text ? OutputFile::Contents::text : OutputFile::Contents::bytes);
   file.write(header);
   {
-    // Rows that go to the terminal are seen themselves.
+    // Rows on the terminal show the progress themselves.
     const bool is_quiet = output_of(options) == "-" && isatty(STDOUT_FILENO) == 1;
     ProgressReport report(output_of(options), is_quiet,
                           {.unit = "rows", .delay = std::chrono::seconds(1)});

@@ -44,7 +44,7 @@ void run_render(const Command& options, const SceneOptions& scene) {
   if (quiet) return;
   note_all(rendered.notes);
   note_frame_rate(options, view_of(job.script).frame_rate);
-  note_picture(job.script);
+  note_convention_and_contrast(job.script);
   if (report.is_seen() && !scene.has_scene())
     say("for a lecture: piblocks render why-pi -o why-pi.mp4\n");
 }
@@ -118,7 +118,7 @@ void run_still(const Command& options, const SceneOptions& scene_options) {
   const StopOnSignals signals;
   const std::string output = output_of(options);
   note_all(render_still(script, *options.value("--at", parse_instant), output, signals.token()));
-  note_picture(script);
+  note_convention_and_contrast(script);
   if (has_ending(output, ".svg") || has_ending(output, ".pdf")) note_sharp(script);
 }
 
@@ -133,7 +133,7 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
   note_all(render_sheet(
       scene, instants, output_of(options),
       [&](const Progress& progress) { report.update(progress); }, signals.token()));
-  note_picture(scene);
+  note_convention_and_contrast(scene);
   note_sharp(scene);
 }
 

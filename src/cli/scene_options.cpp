@@ -163,14 +163,14 @@ Scene SceneOptions::scene() const {
 
 Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
                             const std::string& origin) const {
-  constexpr std::array<std::array<const char*, 3>, 6> kOfOneValue = {
+  constexpr std::array<std::array<const char*, 3>, 6> kExclusiveOptions = {
       {{"--digits", "--mass-ratio", "the mass of red"},
        {"--speed", "--duration", "the speed"},
        {"--transparent", "--opaque", "the background"},
        {"--transparent", "--background", "the background"},
        {"--opaque", "--background", "the background"},
        {"--sound", "--no-sound", "the sound"}}};
-  for (const auto& [first, second, what] : kOfOneValue) {
+  for (const auto& [first, second, what] : kExclusiveOptions) {
     if (!command_.is_given(first) || !command_.is_given(second)) continue;
     throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
   }
@@ -217,7 +217,7 @@ void note_all(const std::vector<std::string>& notes) {
 
 void note_convention(const Script& script) { note_all(convention_notes(script)); }
 
-void note_picture(const Script& script) {
+void note_convention_and_contrast(const Script& script) {
   note_convention(script);
   note_all(contrast_notes(script));
 }

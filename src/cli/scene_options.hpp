@@ -78,7 +78,7 @@ void note_all(const std::vector<std::string>& notes);
 /// @throws SceneError if problems_of() of the system is not empty.
 void note_convention(const Script& script);
 /// The same, and which own colours are hard to see.
-void note_picture(const Script& script);
+void note_convention_and_contrast(const Script& script);
 /// Says that a picture without motion blur is asked for with it.
 void note_sharp(const Script& script);
 /// Prints a note on standard error if the order of pairs decided what happened up to this

@@ -166,7 +166,7 @@ std::vector<Place> places_of(const PictureList& list, const FramePattern* patter
 }
 
 /// The folders of a list that cannot be read.
-std::vector<std::string> closed_folders(const PictureList& list) {
+std::vector<std::string> unreadable_folders(const PictureList& list) {
   std::vector<std::string> names;
   for (const ListedPicture& picture : list.pictures) {
     if (!picture.problem.empty()) names.push_back(picture.name);
@@ -206,16 +206,16 @@ std::vector<PicturePair> paired(const PictureList& reference, const PictureList&
   };
   const auto expected = places_of(reference, pattern_for(reference, actual));
   const auto found = places_of(actual, pattern_for(actual, reference));
-  const std::vector<std::string> closed_reference = closed_folders(reference);
-  const std::vector<std::string> closed_actual = closed_folders(actual);
+  const std::vector<std::string> unreadable_reference = unreadable_folders(reference);
+  const std::vector<std::string> unreadable_actual = unreadable_folders(actual);
   std::vector<PicturePair> pairs;
   auto a = expected.begin();
   auto b = found.begin();
   while (a != expected.end() || b != found.end()) {
     const bool has_a = a != expected.end() && (b == found.end() || !(*b < *a));
     const bool has_b = b != found.end() && (a == expected.end() || !(*a < *b));
-    const bool is_unknown = (!has_b && may_hold(closed_actual, reference.pictures[a->index])) ||
-                            (!has_a && may_hold(closed_reference, actual.pictures[b->index]));
+    const bool is_unknown = (!has_b && may_hold(unreadable_actual, reference.pictures[a->index])) ||
+                            (!has_a && may_hold(unreadable_reference, actual.pictures[b->index]));
     PicturePair pair;
     if (has_a) pair.reference = (a++)->index;
     if (has_b) pair.actual = (b++)->index;

@@ -22,7 +22,7 @@ struct ListedPicture {
 };
 
 struct PictureList {
-  bool is_one_file = false;                  ///< not a folder or a pattern, and there
+  bool is_one_file = false;                  ///< whether the name is that of one existing file
   std::vector<ListedPicture> pictures = {};  ///< by the numbers in their names
   std::string problem = {};                  ///< why there is none
   std::optional<FramePattern> pattern = {};

@@ -11,7 +11,7 @@
 namespace piblocks {
 namespace {
 
-Rational larger_of(const ExactVector& vector) { return std::max(abs(vector[0]), abs(vector[1])); }
+Rational largest_abs(const ExactVector& vector) { return std::max(abs(vector[0]), abs(vector[1])); }
 
 /// Collects what is wrong with each body alone. In closed form masses may be of any size.
 void check_body(const System& system, std::size_t index, bool is_pair, SceneProblems& problems) {
@@ -24,8 +24,8 @@ void check_body(const System& system, std::size_t index, bool is_pair, SceneProb
   }
   problems.require_positive(key(size), body.size);
   problems.require_finite(key(size), body.size);
-  problems.require_finite(key("position"), larger_of(body.position));
-  problems.require_finite(key("velocity"), larger_of(body.velocity));
+  problems.require_finite(key("position"), largest_abs(body.position));
+  problems.require_finite(key("velocity"), largest_abs(body.velocity));
 }
 
 void check_dimensions(const System& system, SceneProblems& problems) {
@@ -39,10 +39,10 @@ void check_dimensions(const System& system, SceneProblems& problems) {
   }
   for (std::size_t i = 0; i < system.walls.size(); ++i) {
     const Wall& wall = system.walls[i];
-    problems.require_finite(fmt::format("wall {}.velocity", i + 1), larger_of(wall.velocity));
+    problems.require_finite(fmt::format("wall {}.velocity", i + 1), largest_abs(wall.velocity));
     const bool is_short = has_short_names(system);
     problems.require_finite(is_short ? "wall.face" : fmt::format("wall {}.point", i + 1),
-                            larger_of(wall.point));
+                            largest_abs(wall.point));
     const std::string key = fmt::format("wall {}.normal", i + 1);
     if (wall.normal[0] == 0 && wall.normal[1] == 0) {
       problems.add(key, "= [0, 0]: must not be 0");

@@ -176,8 +176,8 @@ void write_texts(const RenderJob& job, const Film& film, FileSet& files) {
   add_text(files, kImpress, impress_slides(film, job.output));
 }
 
-/// The files of a bundle that an earlier run has left in the folder, among other words of its text
-/// for beamer, which names the files of all shots.
+/// The names of an earlier bundle's files in the folder; empty if there is none. They come from its
+/// LaTeX text, which names the files of all shots; other words of that text are among them.
 std::set<std::string> earlier_files(const fs::path& folder) {
   constexpr std::size_t kMost_bytes = std::size_t{1} << 20;
   const std::vector<std::uint8_t> bytes = bytes_of_file(folder / kLatex, kMost_bytes);

@@ -101,7 +101,7 @@ std::vector<Voice> voices_of(const Film& film) {
   return voices;
 }
 
-/// That a picture shows, while its shutter is open too.
+/// The latest time that a picture shows, including its exposure.
 Rational last_time(const FrameTime& shown) {
   Rational last = shown.time;
   for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
@@ -241,13 +241,13 @@ std::int64_t FilmSegment::furthest_frame() const {
   return is_loop ? frame_count_ / 2 : frame_count_ - 1;
 }
 
-void FilmSegment::require_certain(const FrameRange& frames, bool is_heard) const {
+void FilmSegment::require_certain(const FrameRange& frames, bool with_sound) const {
   for (const FilmRun& run : runs_) {
     const View& view = run.scene().view;
     const std::int64_t furthest =
-        std::clamp(furthest_frame(), is_heard ? 0 : frames.first, frames.last);
+        std::clamp(furthest_frame(), with_sound ? 0 : frames.first, frames.last);
     const FrameTime shown =
-        schedule_->frame(furthest, is_heard ? Rational(1 / view.frame_rate) : open_s(view));
+        schedule_->frame(furthest, with_sound ? Rational(1 / view.frame_rate) : open_s(view));
     piblocks::require_certain(run.scene(), run.log(), last_time(shown));
   }
 }
@@ -333,11 +333,11 @@ DrawList Film::frame(std::int64_t number) const {
   return faded(before.segment.frame(number - before.first_frame), opacity);
 }
 
-void Film::require_certain(const FrameRange& frames, bool is_heard) const {
+void Film::require_certain(const FrameRange& frames, bool with_sound) const {
   for (const auto& [segment, first_frame, fade] : segments_) {
     const FrameRange own{std::max<std::int64_t>(frames.first - first_frame, 0),
                          std::min(frames.last - first_frame, segment.frame_count() - 1)};
-    if (own.first <= own.last) segment.require_certain(own, is_heard);
+    if (own.first <= own.last) segment.require_certain(own, with_sound);
   }
 }
 

@@ -98,7 +98,7 @@ class FilmSegment {
   /// The frame that comes furthest in time: the last one, or where a loop turns back.
   std::int64_t furthest_frame() const;
   /// As Film::require_certain().
-  void require_certain(const FrameRange& frames, bool is_heard) const;
+  void require_certain(const FrameRange& frames, bool with_sound) const;
 
   /// The words of a segment without runs.
   const Card& card() const noexcept { return card_; }
@@ -146,11 +146,10 @@ class Film {
   FrameRange frames() const noexcept { return {0, frame_count_ - 1}; }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
-  /// Computes all runs as far as these frames go, so that nobody waits for a film that ends with a
-  /// refusal.
-  /// @param is_heard  with the sound, which depends on that of earlier frames
-  /// @throws UsageError if collisions that they show are not certain
-  void require_certain(const FrameRange& frames, bool is_heard) const;
+  /// Computes all runs up to the last of these frames, so that an error comes before the first one.
+  /// @param with_sound  also checks earlier frames, on whose sound that of these depends
+  /// @throws UsageError if a collision that these frames show is not certain
+  void require_certain(const FrameRange& frames, bool with_sound) const;
   /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
   std::span<const PlacedSegment> segments() const noexcept { return segments_; }
   /// The frames of a segment that a lecturer shows by itself: from the first one of its own fade to

@@ -339,8 +339,8 @@ void BodyDraft::put_into(Scene& scene, ProblemLines& problems) const {
 
 bool BodyDraft::moves_no_wall(std::size_t axis) const {
   const auto& [low, high] = sides_.at(axis);
-  const auto& [of_low, of_high] = velocities_.at(axis);
-  return (of_low != 0 && !low) || (of_high != 0 && !high);
+  const auto& [low_velocity, high_velocity] = velocities_.at(axis);
+  return (low_velocity != 0 && !low) || (high_velocity != 0 && !high);
 }
 
 std::string BodyDraft::origin_of(const std::string& key) const {

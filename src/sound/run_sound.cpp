@@ -18,7 +18,7 @@ constexpr double kVolume = 0.42;
 constexpr double kWidest = 0.107;
 
 ClackStream stream_of(const Voice& voice, int rate_hz) {
-  // Than its first whole sample of the film.
+  // How much later the voice begins than its first whole sample of the film.
   const Rational later_s =
       voice.begin_s - Rational(to_integer(RunSound::first_sample(voice, rate_hz))) / rate_hz;
   std::vector<Stretch> stretches = voice.stretches;

@@ -60,7 +60,7 @@ std::unique_ptr<ScriptBuilder> read(std::string_view text, const std::vector<Set
   builder->read_text("scene", text);
   for (auto setting = settings.begin(); setting != settings.end(); ++setting) {
     const std::string key = key_left(*setting, {setting, settings.end()});
-    // It, or the body that it is a property of, has its default from some line on.
+    // Whether a later line resets this key, or the body that has it, to the default.
     const auto is_reset = [&](const Setting& later) {
       return !later.texts && (set_same_value(later.key, key) || key.starts_with(later.key + '.'));
     };

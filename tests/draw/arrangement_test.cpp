@@ -22,7 +22,7 @@ constexpr std::array kOverlays{"digits",   "masses", "velocities", "energy",
                                "momentum", "time",   "ruler"};
 constexpr std::array kPanels{"velocity", "position", "unfolded",     "time",     "count",
                              "ellipse",  "mirrors",  "conservation", "certainty"};
-constexpr std::array kArranged{"lecture", "lecture-light", "article", "print"};
+constexpr std::array kArrangedThemes{"lecture", "lecture-light", "article", "print"};
 constexpr std::array kDigits{1, 3, 8};
 
 /// A raised or lowered part of a formula, in parts of its line.
@@ -196,7 +196,7 @@ class Arrangements : public testing::Test {
       return names.at(static_cast<std::size_t>(random_.integer(0, std::ssize(names) - 1)));
     };
     return {any(kShapes),
-            any(kArranged),
+            any(kArrangedThemes),
             any(kDigits),
             std::move(overlays),
             std::move(panels),

@@ -16,8 +16,8 @@ namespace piblocks {
 namespace {
 
 /// A scene of stepped bodies, and what it shows.
-struct Stepped {
-  explicit Stepped(const std::string& text)
+struct ComposedScene {
+  explicit ComposedScene(const std::string& text)
       : scene(std::get<Scene>(testing_support::script_of(text))),
         log(make_log(scene.system, scene.time.to.offset)),
         composition(scene, *log) {}
@@ -63,7 +63,7 @@ std::optional<Rect> moving_bounds(const DrawList& picture) {
 }
 
 TEST(MovingWalls, OfALineAreWhereTheyAreAtTheTime) {
-  const Stepped piston(
+  const ComposedScene piston(
       "view.theme = 'lecture'\ntime.to = 14\nbox.x = [0, 10]\n"
       "box.x-velocity = [0, -0.5]\n[[body]]\nposition = 2\nvelocity = 1\n");
   for (const int time : {0, 3, 13}) {
@@ -74,7 +74,7 @@ TEST(MovingWalls, OfALineAreWhereTheyAreAtTheTime) {
 }
 
 TEST(MovingWalls, OfTheArticleAreDashed) {
-  const Stepped article("view.theme = 'article'\nwall.velocity = 0.5\ntime.to = 2\n");
+  const ComposedScene article("view.theme = 'article'\nwall.velocity = 0.5\ntime.to = 2\n");
   const DrawList picture = article.at(1);
   const auto wall = moving_bounds(picture);
   ASSERT_TRUE(wall);
@@ -92,8 +92,8 @@ const std::string kBox =
 const std::string kDisc = "[[body]]\nposition = [8, 5]\nradius = 0.5\n";
 
 TEST(MovingWalls, OfAPlaneAreCutWhereTheyAre) {
-  const Stepped corner(kBox + "[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\nvelocity = [0.3, 0.3]\n" +
-                       kDisc);
+  const ComposedScene corner(
+      kBox + "[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\nvelocity = [0.3, 0.3]\n" + kDisc);
   EXPECT_FALSE(moving_bounds(corner.at(0)));  // in the corner it has no length
   const auto wall = moving_bounds(corner.at(4));
   ASSERT_TRUE(wall);
@@ -103,7 +103,7 @@ TEST(MovingWalls, OfAPlaneAreCutWhereTheyAre) {
 }
 
 TEST(MovingWalls, DoNotCutOffThoseThatRest) {
-  const auto right_end = [](const Stepped& shown) {
+  const auto right_end = [](const ComposedScene& shown) {
     double right = 0;
     for (const DrawItem& item : single_items(shown.at(3))) {
       const auto* const plate = std::get_if<PlateItem>(&item);
@@ -113,9 +113,9 @@ TEST(MovingWalls, DoNotCutOffThoseThatRest) {
     }
     return right;
   };
-  const Stepped resting(kBox + kDisc);
+  const ComposedScene resting(kBox + kDisc);
   EXPECT_LT(right_end(resting), resting.x_px(17));
-  const Stepped expanding(kBox + "box.x-velocity = [0, 1]\n" + kDisc);
+  const ComposedScene expanding(kBox + "box.x-velocity = [0, 1]\n" + kDisc);
   EXPECT_GT(right_end(expanding), expanding.x_px(23.9));
 }
 
@@ -128,7 +128,7 @@ std::vector<std::string> texts_of(const DrawList& picture) {
 }
 
 TEST(RealBodies, SayWhatTheyLoseAndWhenNothingMoreIsComputed) {
-  const Stepped balls(
+  const ComposedScene balls(
       "view.theme = 'lecture'\nview.size = [960, 540]\nrestitution = 0.05\ntime.to = 6\n"
       "time.allow-uncertain = true\nshow.overlays = ['energy']\n"
       "[[body]]\nposition = 0\nvelocity = 1\n[[body]]\nposition = 3\n"

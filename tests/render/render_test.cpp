@@ -140,9 +140,9 @@ TEST_F(RenderTest, FailingLeavesNoTrace) {
   EXPECT_TRUE(folder_.is_empty());
 }
 
-// The bodies are certain until a time between 13.4 and 13.5. Back and forth, frame 3866 is before
-// it again, frame 3860 after it.
-TEST_F(RenderTest, WhatIsNotCertainIsRefusedBeforeTheFirstFrame) {
+// The bodies are certain until a time between 13.4 and 13.5. Back and forth, frame 3860 shows an
+// uncertain time, and those from 3866 on certain ones.
+TEST_F(RenderTest, RejectsUncertainCollisionsBeforeTheFirstFrame) {
   const std::string text = "view.size = '320x180'\nview.fps = 10\nview.theme = 'article'\n" +
                            testing_support::uncertain_discs();
   const auto reports_of = [&](RenderJob job) {
@@ -171,7 +171,7 @@ TEST_F(RenderTest, WhatIsNotCertainIsRefusedBeforeTheFirstFrame) {
   EXPECT_EQ(reports_of(backwards), 0);
   backwards.frames = {3866, 3900};
   EXPECT_EQ(render_silently(backwards).frame_count, 35);
-  backwards.output = path("back.wav");  // what was loud before it decides how loud it is
+  backwards.output = path("back.wav");  // the volume depends on earlier frames
   EXPECT_EQ(reports_of(backwards), 0);
 }
 

@@ -19,7 +19,7 @@
 namespace piblocks {
 namespace {
 
-Scene shuttered(int digits, FrameSize size, const Rational& shutter) {
+Scene scene_with_shutter(int digits, FrameSize size, const Rational& shutter) {
   Scene scene = testing_support::article_scene(digits, size.width_px, size.height_px);
   scene.view.shutter = shutter;
   return scene;
@@ -58,15 +58,15 @@ TEST(Shutter, FramesAreMeansOfInstants) {
   for (const int digits : {1, 3, 6, 20}) {
     SCOPED_TRACE(digits);
     // The first collision is in frame 90, the turn at 210.
-    expect_mean_of_instants(shuttered(digits, {960, 540}, Rational(1, 2)), {90, 150, 210});
-    expect_mean_of_instants(shuttered(digits, {320, 180}, 1), {90, 208, 209, 210, 230});
+    expect_mean_of_instants(scene_with_shutter(digits, {960, 540}, Rational(1, 2)), {90, 150, 210});
+    expect_mean_of_instants(scene_with_shutter(digits, {320, 180}, 1), {90, 208, 209, 210, 230});
   }
 }
 
 TEST(Shutter, FramesOfAnySpeedAreMeansOfInstants) {
   for (const int digits : {2, 5}) {
     SCOPED_TRACE(digits);
-    Scene scene = shuttered(digits, {333, 217}, Rational(3, 4));
+    Scene scene = scene_with_shutter(digits, {333, 217}, Rational(3, 4));
     scene.time.speed = Rational(1, 3);
     expect_mean_of_instants(scene, {450, 629, 630});
     scene.time.speed = 10;
@@ -78,7 +78,7 @@ TEST(Shutter, FramesOfAnySpeedAreMeansOfInstants) {
 
 /// Corners are a few pixels wide at this size, so that rows at the ends of blocks differ.
 TEST(Shutter, FramesOfRoundBlocksAreMeansOfInstants) {
-  Scene scene = shuttered(3, {1280, 720}, Rational(1, 2));
+  Scene scene = scene_with_shutter(3, {1280, 720}, Rational(1, 2));
   scene.view.theme = Theme::lecture;
   scene.show.overlays.emplace();  // masses are those of the frame's instant
   scene.show.hits = false;
@@ -90,7 +90,7 @@ TEST(Shutter, FramesOfRoundBlocksAreMeansOfInstants) {
 
 /// Time that stands, runs slower and runs back within one exposure.
 TEST(Shutter, FramesAcrossStretchesAreMeansOfInstants) {
-  Scene scene = shuttered(3, {640, 360}, 1);
+  Scene scene = scene_with_shutter(3, {640, 360}, 1);
   scene.view.frame_rate = 10;
   scene.time.to = Rational(5);
   scene.pacing.freezes = {{parse_instant("3.43"), Rational(1, 10)}};
@@ -101,7 +101,7 @@ TEST(Shutter, FramesAcrossStretchesAreMeansOfInstants) {
 
 /// Other widths and masses: edges that are not on whole pixels in any direction.
 TEST(Shutter, FramesOfOddBlocksAreMeansOfInstants) {
-  Scene scene = shuttered(3, {500, 300}, Rational(1, 2));
+  Scene scene = scene_with_shutter(3, {500, 300}, Rational(1, 2));
   scene.system.bodies[0].size = Rational(5, 7);
   scene.system.bodies[1].size = Rational(13, 11);
   scene.system.bodies[0].velocity[0] = Rational(-1, 3);
@@ -113,7 +113,7 @@ TEST(Shutter, FramesOfOddBlocksAreMeansOfInstants) {
 /// Bars across the blocks, and bounds that are not of whole pixels.
 TEST(Shutter, FramesOfEveryThemeAreMeansOfInstants) {
   for (const Theme theme : {Theme::dark, Theme::print}) {
-    Scene scene = shuttered(3, {330, 190}, Rational(1, 2));
+    Scene scene = scene_with_shutter(3, {330, 190}, Rational(1, 2));
     scene.view.theme = theme;
     scene.show.hits = false;  // marks are those of the frame's instant
     expect_mean_of_instants(scene, {90, 150, 210});
@@ -125,7 +125,7 @@ TEST(Shutter, FramesOfEveryThemeAreMeansOfInstants) {
 }
 
 TEST(Shutter, ClosedShowsTheInstant) {
-  const Scene scene = shuttered(3, {320, 180}, 0);
+  const Scene scene = scene_with_shutter(3, {320, 180}, 0);
   const Film film(scene);
   for (const std::int64_t frame : {0, 90, 210}) {
     EXPECT_TRUE(items_of<ExposedBlocksItem>(film.frame(frame).items).empty());
@@ -133,7 +133,7 @@ TEST(Shutter, ClosedShowsTheInstant) {
 }
 
 TEST(Shutter, WhatStandsStillIsTheInstant) {
-  Scene open = shuttered(3, {333, 217}, 1);
+  Scene open = scene_with_shutter(3, {333, 217}, 1);
   open.pacing.freezes = {{parse_instant("3.47"), 1}};
   open.pacing.hold_end_s = 1;
   Scene closed = open;
@@ -147,7 +147,7 @@ TEST(Shutter, WhatStandsStillIsTheInstant) {
 }
 
 TEST(Shutter, BlueAtRestIsAsInTheInstant) {
-  Scene open = shuttered(3, {333, 217}, 1);
+  Scene open = scene_with_shutter(3, {333, 217}, 1);
   Scene closed = open;
   closed.view.shutter = 0;
   const Rect blue = item_of<RectangleItem>(Film(closed).frame(0), ItemId::blue_block).bounds;
@@ -167,7 +167,7 @@ TEST(Shutter, BlueAtRestIsAsInTheInstant) {
 TEST(Shutter, UpdatesAreWhatPaintingGives) {
   for (const FrameSize size : {FrameSize{320, 180}, FrameSize{97, 61}}) {
     for (const int digits : {1, 3, 8}) {
-      Scene scene = shuttered(digits, size, Rational(1, 2));
+      Scene scene = scene_with_shutter(digits, size, Rational(1, 2));
       scene.pacing.freezes = {{parse_instant("3.45"), Rational(1, 10)}};
       const Film film(scene);
       Canvas canvas(size.width_px, size.height_px);
@@ -181,7 +181,7 @@ TEST(Shutter, UpdatesAreWhatPaintingGives) {
 }
 
 TEST(Shutter, OnlyEndsOfWhatMovesAreRepainted) {
-  const Film film(shuttered(3, {1920, 1080}, Rational(1, 2)));
+  const Film film(scene_with_shutter(3, {1920, 1080}, Rational(1, 2)));
   Canvas canvas(1920, 1080);
   canvas.update(film.frame(10));
   std::int64_t changed = 0;
@@ -195,7 +195,7 @@ TEST(Shutter, OnlyEndsOfWhatMovesAreRepainted) {
 
 TEST(Shutter, OfAStillIsThatOfTheFrameAtItsInstant) {
   const testing_support::TemporaryFolder folder;
-  Scene scene = shuttered(3, {320, 180}, Rational(1, 2));
+  Scene scene = scene_with_shutter(3, {320, 180}, Rational(1, 2));
   scene.time.speed = Rational(1, 2);
   FrameRenderer renderer(scene);
   const std::string file = folder / "still.png";
@@ -209,7 +209,7 @@ TEST(Shutter, OfAStillIsThatOfTheFrameAtItsInstant) {
 
 TEST(Shutter, OfAStillThatNoFrameShowsRunsOnAtTheScenesSpeed) {
   const testing_support::TemporaryFolder folder;
-  Scene scene = shuttered(3, {320, 180}, Rational(1, 2));
+  Scene scene = scene_with_shutter(3, {320, 180}, Rational(1, 2));
   Scene longer = scene;
   longer.time.to = Rational(30);
   render_still(scene, Rational(20), folder / "outside.png");
@@ -220,7 +220,7 @@ TEST(Shutter, OfAStillThatNoFrameShowsRunsOnAtTheScenesSpeed) {
 
 TEST(Shutter, OfASceneWithoutCollisionsNeedsNoEnd) {
   const testing_support::TemporaryFolder folder;
-  Scene scene = shuttered(3, {320, 180}, 1);
+  Scene scene = scene_with_shutter(3, {320, 180}, 1);
   scene.system.bodies[1].velocity[0] = 1;
   EXPECT_NO_THROW(render_still(scene, Rational(1), folder / "still.png"));
 }

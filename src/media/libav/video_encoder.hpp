@@ -49,7 +49,8 @@ class VideoEncoder {
   VideoStream stream_;
 };
 
-/// Makes the chunks of a stream, each by an encoder of its own. @param method  what it says of each
+/// Makes the chunks of a stream, each by an encoder of its own.
+/// @param method  what ChunkEncoder::method() returns
 std::unique_ptr<ChunkEncoder> libav_chunk_encoder(std::shared_ptr<const VideoEncoder> encoder,
                                                   std::string method = {});
 

@@ -163,9 +163,9 @@ Bytes with_rows(int width_px, int height_px, PngColors colors, ByteSpan palette,
   return png;
 }
 
-/// A file of all four channels. @tparam kShifts  of the bytes of a pixel in its word, in order
+/// @tparam kShifts  of the bytes of a pixel in its word, in order
 template <int... kShifts, typename Picture>
-Bytes with_samples(const Picture& picture) {
+Bytes encode_all_channels(const Picture& picture) {
   constexpr std::size_t kBytes = sizeof...(kShifts);
   Bytes rows;
   append_up_filtered(rows, picture.height_px, kBytes * std::size_t(picture.width_px),
@@ -193,11 +193,11 @@ Bytes encode_png(const ImageView& image) {
 Bytes encode_png_samples(const Image& picture) {
   const auto is_opaque = [](std::uint32_t word) { return word >= 0xff000000; };
   if (std::ranges::all_of(picture.words, is_opaque)) return encode_png(picture.view());
-  return with_samples<16, 8, 0, 24>(picture);
+  return encode_all_channels<16, 8, 0, 24>(picture);
 }
 
 Bytes encode_png_samples(const DeepImage& picture) {
-  return with_samples<40, 32, 24, 16, 8, 0, 56, 48>(picture);
+  return encode_all_channels<40, 32, 24, 16, 8, 0, 56, 48>(picture);
 }
 
 Bytes encode_png_palette(int width_px, int height_px, std::span<const std::uint32_t> palette,

@@ -106,12 +106,12 @@ bool drop_pulling(Stage& stage) {
   return true;
 }
 
-/// Whether this is true of the numbers of some two touches.
-template <typename IsTrue>
-bool any_pair(const Stage& stage, const IsTrue& is_true) {
+/// Whether the predicate holds for any two touches, given by their indices.
+template <typename Predicate>
+bool any_pair(const Stage& stage, const Predicate& predicate) {
   for (std::size_t i = 0; i < stage.touches.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (is_true(i, j)) return true;
+      if (predicate(i, j)) return true;
     }
   }
   return false;

@@ -22,8 +22,9 @@ double speed_error(const WallLine& wall) {
   return wall.speed_error + 4 * kUnit * std::abs(wall.speed);
 }
 
-/// An error of a disc's place, and those of a gap that have to do with the wall.
-double with_wall_error(double error, const Disc& disc, const WallLine& wall, double time) {
+/// A bound for the error of the gap between a disc and a wall.
+/// @param error  of the disc's position, or of the gap without the wall's own errors
+double wall_gap_error(double error, const Disc& disc, const WallLine& wall, double time) {
   const double place = size_of(position_at(disc, time));
   return (error + place * wall.normal_error + wall.offset_error +
           8 * kUnit * (place + std::abs(wall.offset) + disc.radius) + place_error(wall, time)) *
@@ -156,7 +157,7 @@ double gap_error(const Flight& a, const Flight& b, double time) {
 }
 
 double gap_error(const Flight& flight, const WallLine& wall, double time) {
-  return with_wall_error(drift(flight, time), flight.disc, wall, time);
+  return wall_gap_error(drift(flight, time), flight.disc, wall, time);
 }
 
 double earliest_meeting(const Flight& a, const Flight& b, double top_speed, bool is_one_event) {
@@ -228,7 +229,7 @@ std::optional<MeetingError> error_of_meeting(const Flight& flight, const WallLin
   meeting.drift_a = drift(flight, time);
   meeting.speed = speed_above(disc.velocity) + std::abs(wall.speed) * kUp;
   meeting.normal_error = wall.normal_error;
-  meeting.residual = with_wall_error(std::abs(gap_to(wall, disc, time)), disc, wall, time);
+  meeting.residual = wall_gap_error(std::abs(gap_to(wall, disc, time)), disc, wall, time);
   const double error =
       (bound.velocity + meeting.speed * (wall.normal_error + 4 * kUnit) + speed_error(wall)) * kUp;
   const double surely = closing_speed(wall, disc) - error;

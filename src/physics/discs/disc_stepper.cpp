@@ -212,7 +212,7 @@ SteppedCollision Stepper::meet(std::uint32_t disc, std::uint32_t partner, double
   return step;
 }
 
-/// Of two that have just met.
+/// The collision of two bodies that have just met.
 SteppedCollision Stepper::step_of(std::uint32_t disc, std::uint32_t partner, double time) const {
   SteppedCollision step;
   step.time = {time * system_.units.time, 0};

@@ -34,8 +34,8 @@ export function lineOf({onInput, onEscape}, properties) {
   return line;
 }
 
-/** Calls something so many milliseconds after the last start(). */
-export function delayed(ms, action) {
+/** A timer that calls something so many milliseconds after its last start(). */
+export function makeTimer(ms, action) {
   const delay = {timer: null,
     start() {
       delay.stop();

@@ -2,7 +2,7 @@
 // In: the size of the window, a press of the button "full-screen". Out: the size in which the program
 // lays the picture out; a bar that fades.
 
-import {byId, delayed} from "./dom.js";
+import {byId, makeTimer} from "./dom.js";
 
 const BAR_ms = 2000;
 /** More pixels than most projectors have; in fewer than the least there is no room for text. */
@@ -22,7 +22,7 @@ function pixelsOf(width, height) {
 export class Lecture {
   #session;
   #screen = byId("screen");
-  #idle = delayed(BAR_ms, () => document.body.classList.add("idle"));
+  #idle = makeTimer(BAR_ms, () => document.body.classList.add("idle"));
   #isOn = false;
 
   constructor(session) {

@@ -2,7 +2,7 @@
 // tells what the program makes of them, and the parts show that.
 
 import {Bodies} from "./bodies.js";
-import {byId, delayed, element, options, sayIn, targetOf} from "./dom.js";
+import {byId, makeTimer, element, options, sayIn, targetOf} from "./dom.js";
 import {Fields} from "./fields.js";
 import {Steps} from "./history.js";
 import {listenToKeys} from "./keys.js";
@@ -40,12 +40,12 @@ new Lecture(session);
 listenToKeys(() => steps.undo());
 
 const text = byId("text");
-/** A text that is typed goes to the program when the hands rest. */
-const typing = delayed(150, () => session.open(text.value));
-const busyNotice = delayed(400, () => byId("busy").hidden = false);
+/** Sends the typed text to the program after a pause. */
+const typing = makeTimer(150, () => session.open(text.value));
+const busyNotice = makeTimer(400, () => byId("busy").hidden = false);
 /** Browsers allow few changes of the address a second. */
-const addressUpdate = delayed(250, () => addressOfScene && !player.isPlaying && steps.update(addressNow()));
-const choicesUpdate = delayed(150, updateChoices);
+const addressUpdate = makeTimer(250, () => addressOfScene && !player.isPlaying && steps.update(addressNow()));
+const choicesUpdate = makeTimer(150, updateChoices);
 /** The facts of the scene whose choices are known or asked for. */
 let choicesOf = null;
 /** Whether somebody has typed what the program has not seen, or has refused. */
@@ -270,7 +270,7 @@ function invite(place) {
 }
 
 /** Opens the scene that the address names.
- * @param otherwise  text and place of another one, if it names none, or cannot be read; or null */
+ * @param otherwise  text and place to open if the address names no readable scene; null opens nothing */
 async function openAddress(otherwise) {
   let problem = "";
   const wanted = await sceneOf(location.hash, scenes).catch(error => {

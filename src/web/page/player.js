@@ -1,7 +1,7 @@
 // Time: the film runs, or goes from frame to frame and from collision to collision.
 // In: what is shown, buttons, keys. Out: places to show.
 
-import {all, approximate, byId, delayed, sayIn} from "./dom.js";
+import {all, approximate, byId, makeTimer, sayIn} from "./dom.js";
 import {SoundPlayer} from "./sound.js";
 
 const seconds = () => performance.now() / 1000;
@@ -22,7 +22,7 @@ export class Player {
   #clock_s = seconds;
   /** Identifies the playback that goes on; a newer one replaces it. */
   #playback = null;
-  #restart = delayed(300, () => this.#isPlaying && this.play());
+  #restart = makeTimer(300, () => this.#isPlaying && this.play());
   onPause = () => {};
   /** Somebody has stepped to another place, or has gone there. */
   onStep = () => {};
