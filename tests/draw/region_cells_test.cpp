@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "draw/region.hpp"
@@ -14,38 +15,40 @@ bool is_in(const PixelRect& r, int x, int y) {
   return x >= r.x_px && x < r.right_px() && y >= r.y_px && y < r.bottom_px();
 }
 
-/// What a Region says of a picture, pixel by pixel, against the definition of its cells.
-class BruteRegion {
- public:
-  BruteRegion(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {}
+/// How many of the rectangles have the pixel.
+std::ptrdiff_t count_around(std::span<const PixelRect> rects, int x, int y) {
+  return std::ranges::count_if(rects, [&](const PixelRect& rect) { return is_in(rect, x, y); });
+}
 
-  void add(const PixelRect& rect) { added_.push_back(rect); }
-  /// Whether the pixel is in the least rectangle around its cell's pixels that were added.
-  bool contains(int x, int y) const {
-    const int left = x / Region::kCell_px * Region::kCell_px;
-    const int top = y / Region::kCell_px * Region::kCell_px;
-    int from_x = width_px_;
-    int from_y = height_px_;
-    int to_x = -1;
-    int to_y = -1;
-    for (int cell_y = top; cell_y < std::min(top + Region::kCell_px, height_px_); ++cell_y) {
-      for (int cell_x = left; cell_x < std::min(left + Region::kCell_px, width_px_); ++cell_x) {
-        const auto has_pixel = [&](const PixelRect& rect) { return is_in(rect, cell_x, cell_y); };
-        if (std::ranges::none_of(added_, has_pixel)) continue;
-        from_x = std::min(from_x, cell_x);
-        from_y = std::min(from_y, cell_y);
-        to_x = std::max(to_x, cell_x);
-        to_y = std::max(to_y, cell_y);
-      }
+/// By the definition: the least rectangle around the pixels of a cell that are in `added`.
+PixelRect least_rect(const PixelRect& cell, std::span<const PixelRect> added) {
+  int from_x = cell.right_px();
+  int from_y = cell.bottom_px();
+  int to_x = -1;
+  int to_y = -1;
+  for (int y = cell.y_px; y < cell.bottom_px(); ++y) {
+    for (int x = cell.x_px; x < cell.right_px(); ++x) {
+      if (count_around(added, x, y) == 0) continue;
+      from_x = std::min(from_x, x);
+      from_y = std::min(from_y, y);
+      to_x = std::max(to_x, x);
+      to_y = std::max(to_y, y);
     }
-    return x >= from_x && x <= to_x && y >= from_y && y <= to_y;
   }
+  return {from_x, from_y, to_x - from_x + 1, to_y - from_y + 1};
+}
 
- private:
-  int width_px_;
-  int height_px_;
-  std::vector<PixelRect> added_;
-};
+/// Compares what a Region says of one of its cells, pixel by pixel.
+void expect_cell(std::span<const PixelRect> rects, const PixelRect& cell,
+                 std::span<const PixelRect> added) {
+  const PixelRect wanted = least_rect(cell, added);
+  for (int y = cell.y_px; y < cell.bottom_px(); ++y) {
+    for (int x = cell.x_px; x < cell.right_px(); ++x) {
+      ASSERT_EQ(count_around(rects, x, y), is_in(wanted, x, y) ? 1 : 0)
+          << "pixel " << x << ", " << y;
+    }
+  }
+}
 
 int integer(Random& random, int first, int last) {
   return static_cast<int>(random.integer(first, last));
@@ -66,18 +69,18 @@ TEST(RegionCells, AreTheLeastRectanglesAndNoPixelIsInTwo) {
     // What was there before clear() leaves nothing.
     region.add(random_rect(random, width_px, height_px));
     region.clear();
-    BruteRegion brute(width_px, height_px);
+    std::vector<PixelRect> added;
     for (int count = integer(random, 0, 6); count > 0; --count) {
-      const PixelRect rect = random_rect(random, width_px, height_px);
-      region.add(rect);
-      brute.add(rect);
+      added.push_back(random_rect(random, width_px, height_px));
+      region.add(added.back());
     }
     const auto rects = region.rects();
-    for (int y = 0; y < height_px; ++y) {
-      for (int x = 0; x < width_px; ++x) {
-        const auto has_pixel = [&](const PixelRect& rect) { return is_in(rect, x, y); };
-        ASSERT_EQ(std::ranges::count_if(rects, has_pixel), brute.contains(x, y) ? 1 : 0)
-            << "pixel " << x << ", " << y << " of " << width_px << "x" << height_px;
+    SCOPED_TRACE(testing::Message() << width_px << "x" << height_px);
+    for (int y = 0; y < height_px; y += Region::kCell_px) {
+      for (int x = 0; x < width_px; x += Region::kCell_px) {
+        const PixelRect cell = {x, y, std::min(Region::kCell_px, width_px - x),
+                                std::min(Region::kCell_px, height_px - y)};
+        ASSERT_NO_FATAL_FAILURE(expect_cell(rects, cell, added));
       }
     }
   }

@@ -264,13 +264,26 @@ void add_lines(const std::vector<DrawItem>& items, const Point& origin, Lines& l
   }
 }
 
+/// The same with # in place of each number.
+std::string without_numbers(const std::string& line) {
+  std::string words;
+  bool is_number = false;
+  for (const char c : line) {
+    const bool was_number = is_number;
+    is_number = (c >= '0' && c <= '9') || (was_number && (c == '.' || c == ','));
+    if (!is_number) words += c;
+    if (is_number && !was_number) words += '#';
+  }
+  return words;
+}
+
 /// What has to be read: words. A number among them may change meanwhile.
 std::set<std::string> sentences_of(const DrawList& picture) {
   Lines lines;
   add_lines(picture.items, {}, lines);
   std::set<std::string> sentences;
   for (const auto& [place, line] : lines) {
-    const std::string words = std::regex_replace(line, std::regex("[0-9][0-9,.]*"), "#");
+    const std::string words = without_numbers(line);
     if (std::ranges::count_if(words, [](unsigned char c) { return std::isalpha(c) != 0; }) > 2) {
       sentences.insert(words);
     }

@@ -251,7 +251,7 @@ py::tuple deltas_of(const Comparison& comparison) {
   return py::make_tuple(width_px, bytes_object(deltas));
 }
 
-py::bytes png_of(const Picture& picture) {
+py::bytes png_of_picture(const Picture& picture) {
   return bytes_object(without_gil([&] { return picture.png(); }));
 }
 
@@ -259,7 +259,7 @@ py::bytes png_of(const Picture& picture) {
 
 void bind_compare(py::module_& module) {
   py::class_<Picture, std::shared_ptr<Picture>>(module, "Picture", "One side of a comparison.")
-      .def("png", &png_of, "A PNG file. Raises IoError if the one that was given cannot be read.")
+      .def("png", &png_of_picture, "A PNG file. Raises IoError if the one that was given cannot be read.")
       .def("write", &Picture::write, py::call_guard<WithoutGil>(), py::arg("output"),
            "The same to a file.");
   module.def("picture_of_samples", &Picture::of_samples, py::arg("samples"),

@@ -154,7 +154,7 @@ void copy_rgba(const Frame& frame, const py::buffer& buffer) {
   }
 }
 
-py::bytes png_of(const Frame& frame) {
+py::bytes png_of_frame(const Frame& frame) {
   return bytes_object(without_gil([&] { return encode_png(frame.view()); }));
 }
 
@@ -167,7 +167,7 @@ void bind_frames(py::module_& module) {
       "blue, green, red, and alpha, which the colours are multiplied by.")
       .def_property_readonly("has_alpha", [](const Frame& frame) { return frame.view().has_alpha; })
       .def("copy_rgba", &copy_rgba, py::arg("buffer"), "Fills rows of R, G, B, straight alpha.")
-      .def("png", &png_of, "The picture as a PNG file.")
+      .def("png", &png_of_frame, "The picture as a PNG file.")
       .def_buffer(&buffer_of);
   py::class_<Pictures, std::shared_ptr<Pictures>>(module, "Pictures",
                                                   "Every frame and every instant of a script.")
