@@ -259,7 +259,8 @@ py::bytes png_of_picture(const Picture& picture) {
 
 void bind_compare(py::module_& module) {
   py::class_<Picture, std::shared_ptr<Picture>>(module, "Picture", "One side of a comparison.")
-      .def("png", &png_of_picture, "A PNG file. Raises IoError if the one that was given cannot be read.")
+      .def("png", &png_of_picture,
+           "A PNG file. Raises IoError if the one that was given cannot be read.")
       .def("write", &Picture::write, py::call_guard<WithoutGil>(), py::arg("output"),
            "The same to a file.");
   module.def("picture_of_samples", &Picture::of_samples, py::arg("samples"),
