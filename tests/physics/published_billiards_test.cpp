@@ -1,10 +1,12 @@
 // What python-billiards (github.com/markus-ebke/python-billiards) states in its tests and
 // documents.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <piblocks/log.hpp>
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "physics/published_cases.hpp"
@@ -15,8 +17,8 @@ namespace {
 /// @param other  with unit disc 0 at rest in the origin
 System beside_unit_disc(const Body& other) { return discs({disc({0, 0}), other}); }
 
-// python-billiards, tests/test_physics.py.
 TEST(PublishedCases, TimesOfImpactOfTwoBalls) {
+  const Source program("python-billiards, tests/test_physics.py");
   const Rational small(std::numbers::sqrt2 - 1);
   const Rational root(std::numbers::sqrt2);
   expect_hits({
@@ -63,8 +65,8 @@ TEST(PublishedCases, TimesOfImpactOfTwoBalls) {
   });
 }
 
-// python-billiards, tests/test_physics.py and tests/test_obstacles.py.
 TEST(PublishedCases, VelocitiesAfterElasticHits) {
+  const Source program("python-billiards, tests/test_physics.py and tests/test_obstacles.py");
   const auto touching = [](const ExactVector& first, const ExactVector& second) {
     return discs({disc({0, 0}, first), disc({2, 0}, second)});
   };
@@ -115,8 +117,8 @@ TEST(PublishedCases, VelocitiesAfterElasticHits) {
   });
 }
 
-// python-billiards, tests/test_simulation.py: test_toi_contents.
 TEST(PublishedCases, TheEarliestOfThreePairsIsFirst) {
+  const Source program("python-billiards, tests/test_simulation.py: test_toi_contents");
   const Body first = disc({0, 0});
   const Body second = disc({4, 0}, {-1, 0});
   const Body third = disc({0, 4}, {0, -2});
@@ -126,8 +128,9 @@ TEST(PublishedCases, TheEarliestOfThreePairsIsFirst) {
                {"all", discs({first, second, third}), 1}});
 }
 
-// python-billiards, tests/test_simulation.py: test_simple_collision. Its second ball starts at 10.
+// Its second ball starts at 10.
 TEST(PublishedCases, ObliqueHitOfUnequalMassesAndWhatFollows) {
+  const Source program("python-billiards, tests/test_simulation.py: test_simple_collision");
   const System system = discs({disc({2, 0}, {4, 0}), disc({50, 18 + 10 * 9}, {0, -9}, 1, 2)});
   expect_hit({"collision",
               system,
@@ -136,60 +139,66 @@ TEST(PublishedCases, ObliqueHitOfUnequalMassesAndWhatFollows) {
               5e-6});
   const State end = make_log(system)->state_at(14);
   EXPECT_EQ(end.count, 1);
-  expect_motion({{46.2503, -26.43683}, {-4.0 / 3, -12}}, end.bodies[0], 5e-5);
+  expect_motion("at the end, ball 1", {{46.2503, -26.43683}, {-4.0 / 3, -12}}, end.bodies[0], 5e-5);
   // Cut off, not rounded: 55.87485.
-  expect_motion({{55.8748, -4.78158}, {8.0 / 3, -3}}, end.bodies[1], 6e-5);
+  expect_motion("at the end, ball 2", {{55.8748, -4.78158}, {8.0 / 3, -3}}, end.bodies[1], 6e-5);
 }
 
-// python-billiards, tests/test_simulation.py: test_newton_cradle. Balls 4 and 3 touch.
+// Balls 4 and 3 touch.
 TEST(PublishedCases, CradleWithTwoBallsInContact) {
+  const Source program("python-billiards, tests/test_simulation.py: test_newton_cradle");
   const auto log =
       make_log(discs({disc({-3, 0}, {1, 0}), disc({0, 0}), disc({5, 0}), disc({3, 0})}));
   expect_times("times", *log, {1, 2, 2}, kRoundings);
   EXPECT_EQ(log->last(), 3);
   const State first = log->state_at(1);
-  expect_motion({{-2, 0}, {0, 0}}, first.bodies[0], kRoundings);
-  expect_motion({{0, 0}, {1, 0}}, first.bodies[1], kRoundings);
+  expect_motion("at 1, ball 1", {{-2, 0}, {0, 0}}, first.bodies[0], kRoundings);
+  expect_motion("at 1, ball 2", {{0, 0}, {1, 0}}, first.bodies[1], kRoundings);
   const State end = log->state_at(11);
-  expect_motion({{1, 0}, {0, 0}}, end.bodies[1], kRoundings);
-  expect_motion({{14, 0}, {1, 0}}, end.bodies[2], kRoundings);
-  expect_motion({{3, 0}, {0, 0}}, end.bodies[3], kRoundings);
+  expect_motion("at the end, ball 2", {{1, 0}, {0, 0}}, end.bodies[1], kRoundings);
+  expect_motion("at the end, ball 3", {{14, 0}, {1, 0}}, end.bodies[2], kRoundings);
+  expect_motion("at the end, ball 4", {{3, 0}, {0, 0}}, end.bodies[3], kRoundings);
 }
 
-// python-billiards, tests/test_simulation.py: test_masses; without mass is 1e-20 here. The ball of
-// infinite mass moves, and is once more replaced by a moving wall.
+// Without mass is 1e-20 here. The ball of infinite mass moves, and is once more replaced by a
+// moving wall.
 TEST(PublishedCases, MovingBallOfInfiniteMass) {
+  const Source program("python-billiards, tests/test_simulation.py: test_masses");
   const std::vector<Body> two = {disc({-3, 0}, {1, 0}, 1, 1 / power(10, 20)),
                                  disc({0, 0}, {}, 1, 42)};
   std::vector<Body> three = two;
   three.push_back(disc({4, 0}, {-1, 0}, 1, std::nullopt));
   for (const System& system : {discs(three), discs(two, {{"face", {3, 0}, {-1, 0}, {-1, 0}}})}) {
+    const Source source(system.walls.empty() ? "a heavy ball" : "a moving wall");
     const auto log = make_log(system);
     expect_times("times", *log, {1, 2, 3}, kRoundings);
     EXPECT_EQ(log->last(), 3);
-    expect_motion({{-2, 0}, {-1, 0}}, log->state_at(1).bodies[0], kRoundings);
-    expect_motion({{0, 0}, {0, 0}}, log->state_at(1).bodies[1], kRoundings);
-    expect_motion({{0, 0}, {-2, 0}}, log->state_at(2).bodies[1], kRoundings);
-    expect_motion({{-4, 0}, {-3, 0}}, log->state_at(3).bodies[0], kRoundings);
-    expect_motion({{-2, 0}, {-2, 0}}, log->state_at(3).bodies[1], kRoundings);
+    expect_motion("at 1, ball 1", {{-2, 0}, {-1, 0}}, log->state_at(1).bodies[0], kRoundings);
+    expect_motion("at 1, ball 2", {{0, 0}, {0, 0}}, log->state_at(1).bodies[1], kRoundings);
+    expect_motion("at 2, ball 2", {{0, 0}, {-2, 0}}, log->state_at(2).bodies[1], kRoundings);
+    expect_motion("at 3, ball 1", {{-4, 0}, {-3, 0}}, log->state_at(3).bodies[0], kRoundings);
+    expect_motion("at 3, ball 2", {{-2, 0}, {-2, 0}}, log->state_at(3).bodies[1], kRoundings);
   }
-  expect_motion({{2, 0}, {-1, 0}}, make_log(discs(three))->state_at(2).bodies[2], kRoundings);
+  expect_motion("at 2, ball 3", {{2, 0}, {-1, 0}}, make_log(discs(three))->state_at(2).bodies[2],
+                kRoundings);
 }
 
-// python-billiards, tests/test_simulation.py: test_exceptional_balls, without its second ball of
-// infinite mass, since nothing can move two such balls aside.
+// Without the second ball of infinite mass, since nothing can move two such balls aside.
 TEST(PublishedCases, PointWithoutMassMeetsInfiniteMass) {
+  const Source program("python-billiards, tests/test_simulation.py: test_exceptional_balls");
   const System system = discs({disc({-3, 0}, {1, 0}, kHalf), fixed({0, 0}, kHalf)});
   expect_hit({"collision", system, 2, {{{-1, 0}, {-1, 0}}, {{0, 0}, {0, 0}}}});
-  expect_motion({{-4, 0}, {-1, 0}}, make_log(system)->state_at(5).bodies[0], kRoundings);
+  expect_motion("at 5, ball 1", {{-4, 0}, {-1, 0}}, make_log(system)->state_at(5).bodies[0],
+                kRoundings);
 }
 
 std::vector<Wall> ends(const Rational& left, const Rational& right) {
   return {{"left", {left, 0}, {1, 0}}, {"right", {right, 0}, {-1, 0}}};
 }
 
-// python-billiards, tests/test_simulation.py: test_callbacks, and docs/usage.rst.
 TEST(PublishedCases, CradlesBetweenWalls) {
+  const Source program(
+      "python-billiards, tests/test_simulation.py: test_callbacks, and docs/usage.rst");
   const auto two = make_log(discs({disc({-3, 0}, {1, 0}), disc({2, 0})}, ends(-4, 7)));
   expect_times("two balls", *two, {3, 7, 11, 14}, kRoundings);
   EXPECT_EQ(two->count_at(15), 4);
@@ -200,12 +209,13 @@ TEST(PublishedCases, CradlesBetweenWalls) {
   expect_times("five balls", *five, {0.5, 0.55, 0.6, 0.65, 2, 3.35, 3.4, 3.45, 3.5, 4}, 5e-3);
   // At 4 all is as it was at first.
   EXPECT_EQ(five->count_at(Rational(399, 100)), 9);
-  expect_motion({{-3, 0}, {2, 0}}, five->state_at(4).bodies[0], 1e-13);
+  expect_motion("at 4, ball 1", {{-3, 0}, {2, 0}}, five->state_at(4).bodies[0], 1e-13);
 }
 
-// python-billiards, docs/usage.rst. The film there ends at 12, when all is as it was at first. From
+// The film there ends at 12, when all is as it was at first. From
 // then on to 30 the third ball is 1e-10 off the line of the others.
 TEST(PublishedCases, CradleThatIsSlightlyOffItsLine) {
+  const Source program("python-billiards, docs/usage.rst");
   std::vector<Body> row = {disc({-3, 0}, {2, 0})};
   for (int k = 0; k < 4; ++k) row.push_back(disc({Rational(21 * k, 10), 0}));
   row[2].position[1] = Rational(1e-10);
@@ -215,27 +225,29 @@ TEST(PublishedCases, CradleThatIsSlightlyOffItsLine) {
   for (Integer k = 1; k <= log->count_at(18); ++k) {
     ++(log->collision(k).second < row.size() ? balls : walls);
   }
-  EXPECT_EQ(balls, 36);
-  EXPECT_EQ(walls, 8);
+  expect_said("hits of balls", 36, balls, 0);
+  expect_said("hits of walls", 8, walls, 0);
 }
 
 /// The light ball or block first.
 void expect_pool(const System& system) {
-  SCOPED_TRACE(system.dimensions);
+  const Source source(system.dimensions == 1 ? "blocks" : "discs");
   const auto log = make_log(system);
   expect_times("first", *log, {1.8}, kRoundings);
-  std::vector<Integer> counts;
-  for (int time = 1; time <= 5; ++time) counts.push_back(log->count_at(time));
-  EXPECT_EQ(counts, (std::vector<Integer>{0, 1, 1, 4, 314152}));
+  for (const auto& [time, said] :
+       {std::pair{1, 0}, {2, 1}, {3, 1}, {4, 4}, {5, 314152}, {16, 314159}}) {
+    expect_said(fmt::format("count at {}", time), said, log->count_at(time).get_d(), 0);
+  }
   EXPECT_EQ(log->last(), 314159);
   const State end = log->state_at(16);
-  expect_motion(velocity(0.73463055, 0), end.bodies[0], 5e-9);
-  expect_motion(velocity(1, 0), end.bodies[1], 5e-9);
+  expect_motion("at the end, ball 1", velocity(0.73463055, 0), end.bodies[0], 5e-9);
+  expect_motion("at the end, ball 2", velocity(1, 0), end.bodies[1], 5e-9);
   expect_said("energy", 5e9, energy_of(system, end.bodies), 0.5);
 }
 
-// python-billiards, README.md: "Computing pi with pool"; in closed form, and stepped as discs.
+// In closed form, and stepped as discs.
 TEST(PublishedCases, PoolCountsSixDigitsOfPi) {
+  const Source program("python-billiards, README.md: \"Computing pi with pool\"");
   const Rational heavy = power(100, 5);
   const System line = {.bodies = {{1, {3}, {}, Rational(2, 5)}, {heavy, {6}, {-1}, 2}},
                        .walls = {{"wall", {0}, {1}}}};

@@ -1,6 +1,8 @@
 // What other public programs state in their tests and examples.
 #include "physics/published_cases.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <piblocks/log.hpp>
 
@@ -9,6 +11,8 @@
 #include <cstddef>
 #include <numbers>
 #include <vector>
+
+#include "core/rounded.hpp"
 
 namespace piblocks {
 namespace {
@@ -20,8 +24,8 @@ std::vector<Wall> box(const Rational& low, const Rational& high) {
           {"top", {0, high}, {0, -1}}};
 }
 
-// HardSphereDynamics.jl, test/runtests.jl.
 TEST(PublishedCases, HardSpheres) {
+  const Source program("HardSphereDynamics.jl, test/runtests.jl");
   expect_hits({
       {"FixedPlane", discs({disc({0, 0}, {1, 0}, 2)}, {{"plane", {10, 0}, {-1, 0}}}), 8},
       {"two MovableBalls, glancing",
@@ -31,8 +35,9 @@ TEST(PublishedCases, HardSpheres) {
   });
 }
 
-// tms-ninja/billiards, testing/test_billiards.py: smooth discs.
+// Of smooth discs.
 TEST(PublishedCases, SmoothDiscsInABox) {
+  const Source program("tms-ninja/billiards, testing/test_billiards.py");
   const std::vector<Wall> ten = box(0, 10);
   const std::vector<Wall> twenty = box(-20, 20);
   std::vector<Wall> diagonal = box(-10, 10);
@@ -74,8 +79,8 @@ TEST(PublishedCases, SmoothDiscsInABox) {
   expect_times("simple_simulation", *simple, {5, 15, 25, 35, 45, 55, 65, 75, 85, 95}, 1e-12);
 }
 
-// shohirose/hardsphere-molecular-dynamics, test/collision.cpp.
 TEST(PublishedCases, SmallParticles) {
+  const Source program("shohirose/hardsphere-molecular-dynamics, test/collision.cpp");
   const Rational radius(1, 100);
   const auto pair = [&](const ExactVector& first, const ExactVector& second) {
     return discs({disc({-1, 0}, first, radius), disc({1, 0}, second, radius)});
@@ -90,9 +95,11 @@ TEST(PublishedCases, SmallParticles) {
   });
 }
 
-// TheAlgorithms/Java, ElasticCollision2DTest.java; knoboid/particle-collision-system, test/units;
-// loicmorvan/pinball, HalfPlaneColliderTests.cs.
 TEST(PublishedCases, SingleHitsOfOtherPrograms) {
+  const Source program(
+      "TheAlgorithms/Java, ElasticCollision2DTest.java; knoboid/particle-collision-system, "
+      "test/units; "
+      "loicmorvan/pinball, HalfPlaneColliderTests.cs");
   const auto bodies = [](const ExactVector& first, const ExactVector& second, int mass = 1) {
     return discs({disc({0, 0}, first, kHalf, mass), disc({1, 0}, second, kHalf)});
   };
@@ -112,9 +119,10 @@ TEST(PublishedCases, SingleHitsOfOtherPrograms) {
   });
 }
 
-// knoboid/particle-collision-system, test/units/rbcd-test.js: walls of a box of side 10, and its
-// corners, where two hits are at once. It says which walls are hit; these turn the velocity.
+// Walls of a box of side 10, and its corners, where two hits are at once. The source says which
+// walls are hit; these turn the velocity.
 TEST(PublishedCases, WallsAndCornersOfABox) {
+  const Source program("knoboid/particle-collision-system, test/units/rbcd-test.js");
   struct Flight {
     std::array<int, 2> from;
     std::array<int, 2> velocity;
@@ -137,7 +145,9 @@ TEST(PublishedCases, WallsAndCornersOfABox) {
     };
     const ExactVector from = {flight.from[0], flight.from[1]};
     const ExactVector along = {flight.velocity[0], flight.velocity[1]};
-    expect_hit({"rbcd-test",
+    const Source source(fmt::format("from {} along {}", fmt::join(flight.from, " "),
+                                    fmt::join(flight.velocity, " ")));
+    expect_hit({"box",
                 discs({disc(from, along)}, box(0, 10)),
                 flight.time,
                 {velocity(turned(0), turned(1))}});
@@ -149,9 +159,10 @@ Body ball(int mass, const ExactVector& position, const ExactVector& velocity) {
   return disc(position, velocity, Rational(std::cbrt(mass) / 2), mass);
 }
 
-// jim-tooker/BallCollisionSimulator, tests/test_cases.py. It steps in time, by hundredths, so its
-// times and places are late by up to one step; what it says of hits off the centre is then wrong.
+// The source steps in time, by hundredths, so that its times and places are late by up to one step;
+// what it says of hits off the centre is then wrong.
 TEST(PublishedCases, BallsThatLoseEnergy) {
+  const Source program("jim-tooker/BallCollisionSimulator, tests/test_cases.py");
   constexpr double kDigits = 5e-4;
   struct Loss {
     int number;
@@ -220,7 +231,7 @@ TEST(PublishedCases, BallsThatLoseEnergy) {
        1.02},
   };
   for (const Loss& loss : cases) {
-    SCOPED_TRACE(loss.number);
+    const Source source(fmt::format("{}", loss.number));
     expect_hit({"velocities", loss.system, kNotSaid, loss.after, kDigits, loss.energy_lost});
     expect_hit({"time", loss.system, loss.time, {}, 0.011});
   }
@@ -236,8 +247,8 @@ System sinai(double radius, const ExactVector& from, const ExactVector& along) {
                box(-reach, reach));
 }
 
-// dpsanders/BilliardModels.jl, test/test_BilliardModels.jl.
 TEST(PublishedCases, PointsAmongWallsAndDiscs) {
+  const Source program("dpsanders/BilliardModels.jl, test/test_BilliardModels.jl");
   const Rational point(kPoint);
   const double off = kPoint * std::numbers::sqrt2;
   const Wall plane = {"plane", {Rational(off), 0}, {-1, -1}};
@@ -258,17 +269,19 @@ TEST(PublishedCases, PointsAmongWallsAndDiscs) {
   EXPECT_EQ(make_log(back)->collision(1).second, 1U) << "Sinai_billiard: the disc";
 }
 
-// DynamicalBilliards.jl, test/various_tests.jl: the mean time between hits in Sinai's billiard. It
-// allows 0.1 of it.
+// The source allows 0.1 of it.
 TEST(PublishedCases, MeanTimeBetweenHitsInSinaisBilliard) {
+  const Source program("DynamicalBilliards.jl, test/various_tests.jl");
   for (const double radius : {0.25, 0.35}) {
     const double said = std::numbers::pi * (1 - std::numbers::pi * radius * radius) /
                         (4 + 2 * std::numbers::pi * radius);
     const double angle = 0.1;
-    const auto log = make_log(sinai(radius, {Rational(-0.4), Rational(-0.4)},
-                                    {Rational(std::cos(angle)), Rational(std::sin(angle))}));
+    const auto log =
+        make_log(sinai(radius, {Rational(-0.4), Rational(-0.4)},
+                       {Rational(rounded::cos(angle)), Rational(rounded::sin(angle))}));
     constexpr int kTime = 20'000;
-    EXPECT_NEAR(kTime / log->count_at(kTime).get_d(), said, 0.1 * said) << radius;
+    const Source source(fmt::format("a disc of radius {}, {} units of time", radius, kTime));
+    expect_said("mean time between hits", said, kTime / log->count_at(kTime).get_d(), 0.1 * said);
   }
 }
 
@@ -279,7 +292,7 @@ System gas(int rows, const Rational& side) {
     const double angle = k * std::numbers::pi * (3 - std::sqrt(5));
     bodies.push_back(
         disc({side * (2 * (k % rows) + 1) / (2 * rows), side * (2 * (k / rows) + 1) / (2 * rows)},
-             {Rational(std::cos(angle)), Rational(std::sin(angle))}));
+             {Rational(rounded::cos(angle)), Rational(rounded::sin(angle))}));
   }
   return discs(bodies, box(0, side));
 }
@@ -296,9 +309,10 @@ double wall_impulse(const Log& log, const Rational& until) {
   return sum;
 }
 
-// tms-ninja/billiards, examples: maxwell-boltzmann.ipynb, equation-of-state.ipynb, and the mean
-// speed of test_add_random_discs_temperature. All speeds are 1 at first, so kT is 1/2.
+// And the mean speed of test_add_random_discs_temperature. All speeds are 1 at first, so kT is 1/2.
 TEST(PublishedCases, GasOfDiscs) {
+  const Source program(
+      "tms-ninja/billiards, examples: maxwell-boltzmann.ipynb, equation-of-state.ipynb");
   constexpr double kTemperature = 0.5;
   constexpr int kRows = 20;
   constexpr int kSide = 200;
@@ -320,8 +334,9 @@ TEST(PublishedCases, GasOfDiscs) {
     }
     EXPECT_NEAR(energy, kRows * kRows * kTemperature, 1e-7);
   }
-  EXPECT_NEAR(speeds / count, std::sqrt(std::numbers::pi * kTemperature / 2), 0.01);
-  EXPECT_NEAR(slow / count, 1 - std::exp(-1 / (2 * kTemperature)), 0.01);
+  const Source source(fmt::format("{} discs until {}", kRows * kRows, kTime));
+  expect_said("mean speed", std::sqrt(std::numbers::pi * kTemperature / 2), speeds / count, 0.01);
+  expect_said("part below speed 1", 1 - std::exp(-1 / (2 * kTemperature)), slow / count, 0.01);
   // Centres stay off the walls by the radius: in such a small box, that is the room.
   constexpr double kRoom = kSide - 2;
   const double density = kRows * kRows / (kRoom * kRoom);
@@ -331,7 +346,7 @@ TEST(PublishedCases, GasOfDiscs) {
       density * kTemperature *
       (1 + 2 * cover + (16.0 / 3 - 4 * root) * cover * cover +
        (16 - 36 * root + 80 / (std::numbers::pi * std::numbers::pi)) * cover * cover * cover);
-  EXPECT_NEAR(wall_impulse(*log, kTime) / (4 * kRoom * kTime), said, 0.02 * said);
+  expect_said("pressure", said, wall_impulse(*log, kTime) / (4 * kRoom * kTime), 0.02 * said);
 }
 
 }  // namespace
