@@ -8,6 +8,7 @@
 #include "draw/canvas.hpp"
 #include "render/film.hpp"
 #include "rendered_parts.hpp"
+#include "support/pdf_pages.hpp"
 #include "support/script_of.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -66,11 +67,7 @@ TEST_F(VectorFilmTest, EachSvgFileIsTheFrameWithAMark) {
 TEST_F(VectorFilmTest, APdfFileHasAPageForEachFrame) {
   const std::string whole = file_contents(render_to("a.pdf", job_));
   EXPECT_TRUE(whole == file_contents(render_to("b.pdf", job_)));
-  const auto pages = [](const std::string& pdf) {
-    const std::string key = "/Count ";
-    return std::atoll(pdf.c_str() + pdf.find(key) + key.size());
-  };
-  EXPECT_EQ(pages(whole), film_.frame_count());
+  EXPECT_EQ(testing_support::pages_of_pdf(whole), film_.frame_count());
   for (const std::int64_t number : {std::int64_t{0}, film_.frame_count() - 1}) {
     job_.frames = {number, number};
     const auto page = draw_pdf(film_.frame(number));
