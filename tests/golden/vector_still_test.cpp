@@ -99,7 +99,7 @@ const std::vector<VectorCase> kKinds{
       "position,unfolded,mirrors"}},
     {"diagrams_of_runs",
      {"--at", "3.7", "--size", "640x480", "--shutter", "0", "--panels", "time,count,velocity"}},
-    {"ellipse", {"--digits", "2", "--at", "4", "--size", "480x360", "--panels", "ellipse"}},
+    {"ellipse", {"--digits", "2", "--at", "4", "--size", "640x480", "--panels", "ellipse"}},
     {"bars", {"--at", "3.7", "--size", "480x360", "--shutter", "0", "--panels", "conservation"}},
     {"certainty", {"--at", "3.7", "--size", "480x360", "--shutter", "0", "--panels", "certainty"}},
     {"discs", {"touch", "--at", "#1+0.3", "--size", "640x480"}},
