@@ -47,8 +47,9 @@ class Comparison {
   CertaintyCheck result() {
     for (const BoundedStep& bounded : steps_) {
       const SteppedCollision& step = bounded.step;
-      queue_of(step.first).push_back(&bounded);
-      if (step.second < system_.bodies.size()) queue_of(step.second).push_back(&bounded);
+      for (const std::uint32_t body : {step.first, step.second}) {
+        if (is_movable(body)) queue_of(body).push_back(&bounded);
+      }
     }
     check_.certain = steps_.size();
     std::size_t left = 2 * steps_.size() + 1;
@@ -109,14 +110,19 @@ class Comparison {
 
   std::vector<const BoundedStep*>& queue_of(std::uint32_t body) { return queues_[body]; }
 
-  /// The next true collision has to be the next of both bodies, if they have one.
+  /// What hits others at one instant, in any order, leaves them as they were.
+  bool is_movable(std::uint32_t body) const {
+    return body < system_.bodies.size() && system_.bodies[body].mass;
+  }
+
+  /// The next true collision has to be the next of each body that it moves, if they have one.
   bool compare_next() {
     const std::optional<PreciseDiscs::Step> next = truth_.step();
     if (!next) return false;
-    const bool is_pair = next->second < system_.bodies.size();
     swap_walls(next->first, next->second);
-    const BoundedStep* of_first = take_from(next->first);
-    const BoundedStep* of_second = is_pair ? take_from(next->second) : of_first;
+    const BoundedStep* of_first = is_movable(next->first) ? take_from(next->first) : nullptr;
+    const BoundedStep* of_second = is_movable(next->second) ? take_from(next->second) : of_first;
+    if (!is_movable(next->first)) of_first = of_second;
     if (of_first == nullptr && of_second == nullptr) {
       note_uncertain(next->time);
       return true;
