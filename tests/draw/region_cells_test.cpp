@@ -16,7 +16,7 @@ bool is_in(const PixelRect& r, int x, int y) {
 }
 
 /// How many of the rectangles have the pixel.
-std::ptrdiff_t count_around(std::span<const PixelRect> rects, int x, int y) {
+std::ptrdiff_t count_at(std::span<const PixelRect> rects, int x, int y) {
   return std::ranges::count_if(rects, [&](const PixelRect& rect) { return is_in(rect, x, y); });
 }
 
@@ -28,7 +28,7 @@ PixelRect least_rect(const PixelRect& cell, std::span<const PixelRect> added) {
   int to_y = -1;
   for (int y = cell.y_px; y < cell.bottom_px(); ++y) {
     for (int x = cell.x_px; x < cell.right_px(); ++x) {
-      if (count_around(added, x, y) == 0) continue;
+      if (count_at(added, x, y) == 0) continue;
       from_x = std::min(from_x, x);
       from_y = std::min(from_y, y);
       to_x = std::max(to_x, x);
@@ -44,8 +44,7 @@ void expect_cell(std::span<const PixelRect> rects, const PixelRect& cell,
   const PixelRect wanted = least_rect(cell, added);
   for (int y = cell.y_px; y < cell.bottom_px(); ++y) {
     for (int x = cell.x_px; x < cell.right_px(); ++x) {
-      ASSERT_EQ(count_around(rects, x, y), is_in(wanted, x, y) ? 1 : 0)
-          << "pixel " << x << ", " << y;
+      ASSERT_EQ(count_at(rects, x, y), is_in(wanted, x, y) ? 1 : 0) << "pixel " << x << ", " << y;
     }
   }
 }

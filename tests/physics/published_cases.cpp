@@ -30,7 +30,7 @@ std::string difference_of(double said, double ours) {
   return is_rounding ? "0" : fmt::format("{:.1e}", ours - said);
 }
 
-/// What PIBLOCKS_TABLE=FILE asks for.
+/// All values, written to the file that PIBLOCKS_TABLE names; to none without it.
 class Table {
  public:
   Table() {

@@ -35,7 +35,7 @@ TEST(PublishedCases, HardSpheres) {
   });
 }
 
-// Of smooth discs.
+// The discs are smooth.
 TEST(PublishedCases, SmoothDiscsInABox) {
   const Source program("tms-ninja/billiards, testing/test_billiards.py");
   const std::vector<Wall> ten = box(0, 10);
@@ -269,7 +269,7 @@ TEST(PublishedCases, PointsAmongWallsAndDiscs) {
   EXPECT_EQ(make_log(back)->collision(1).second, 1U) << "Sinai_billiard: the disc";
 }
 
-// The source allows 0.1 of it.
+// The source allows a tenth of the value.
 TEST(PublishedCases, MeanTimeBetweenHitsInSinaisBilliard) {
   const Source program("DynamicalBilliards.jl, test/various_tests.jl");
   for (const double radius : {0.25, 0.35}) {
@@ -309,7 +309,8 @@ double wall_impulse(const Log& log, const Rational& until) {
   return sum;
 }
 
-// And the mean speed of test_add_random_discs_temperature. All speeds are 1 at first, so kT is 1/2.
+// The mean speed is that of test_add_random_discs_temperature. All speeds are 1 at first, so kT is
+// 1/2.
 TEST(PublishedCases, GasOfDiscs) {
   const Source program(
       "tms-ninja/billiards, examples: maxwell-boltzmann.ipynb, equation-of-state.ipynb");
@@ -336,7 +337,7 @@ TEST(PublishedCases, GasOfDiscs) {
   }
   const Source source(fmt::format("{} discs until {}", kRows * kRows, kTime));
   expect_said("mean speed", std::sqrt(std::numbers::pi * kTemperature / 2), speeds / count, 0.01);
-  expect_said("part below speed 1", 1 - std::exp(-1 / (2 * kTemperature)), slow / count, 0.01);
+  expect_said("share of speeds up to 1", 1 - std::exp(-1 / (2 * kTemperature)), slow / count, 0.01);
   // Centres stay off the walls by the radius: in such a small box, that is the room.
   constexpr double kRoom = kSide - 2;
   const double density = kRows * kRows / (kRoom * kRoom);

@@ -48,7 +48,7 @@ class Comparison {
     for (const BoundedStep& bounded : steps_) {
       const SteppedCollision& step = bounded.step;
       for (const std::uint32_t body : {step.first, step.second}) {
-        if (is_movable(body)) queue_of(body).push_back(&bounded);
+        if (is_changed_by_hits(body)) queue_of(body).push_back(&bounded);
       }
     }
     check_.certain = steps_.size();
@@ -110,8 +110,9 @@ class Comparison {
 
   std::vector<const BoundedStep*>& queue_of(std::uint32_t body) { return queues_[body]; }
 
-  /// What hits others at one instant, in any order, leaves them as they were.
-  bool is_movable(std::uint32_t body) const {
+  /// Whether collisions change the body. Those of another one at one instant have no order to
+  /// compare.
+  bool is_changed_by_hits(std::uint32_t body) const {
     return body < system_.bodies.size() && system_.bodies[body].mass;
   }
 
@@ -120,9 +121,11 @@ class Comparison {
     const std::optional<PreciseDiscs::Step> next = truth_.step();
     if (!next) return false;
     swap_walls(next->first, next->second);
-    const BoundedStep* of_first = is_movable(next->first) ? take_from(next->first) : nullptr;
-    const BoundedStep* of_second = is_movable(next->second) ? take_from(next->second) : of_first;
-    if (!is_movable(next->first)) of_first = of_second;
+    const BoundedStep* of_first =
+        is_changed_by_hits(next->first) ? take_from(next->first) : nullptr;
+    const BoundedStep* of_second =
+        is_changed_by_hits(next->second) ? take_from(next->second) : of_first;
+    if (!is_changed_by_hits(next->first)) of_first = of_second;
     if (of_first == nullptr && of_second == nullptr) {
       note_uncertain(next->time);
       return true;

@@ -1,6 +1,5 @@
 // How many pages a PDF file says it has.
-// In: its bytes. Out: the number. From version 1.18 on, Cairo writes what says it in a compressed
-// stream.
+// In: its bytes. Out: the number. Cairo 1.18 and later compress the object that has it.
 #pragma once
 
 #include <zlib.h>
